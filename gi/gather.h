@@ -12,7 +12,7 @@ namespace tomales {
 
 struct GatherSettings {
   int samples = 600;
-  float maxDistance = 1e30f;
+  float maxDistance = kRiInfinity;
   uint32_t seed = 0;
   Illumination light = Illumination::Lights;  ///< The light that shades the hits.
   bool curvature = false;                     ///< Fill smoothRadius and hessian of the record (gi/gather/hessian.h).
@@ -25,7 +25,7 @@ struct GatherSettings {
   bool operator==(const GatherSettings&) const = default;
 
   /// True for occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
-  bool covers() const { return asked && !asked->radiance; }
+  bool isOcclusion() const { return asked && !asked->radiance; }
 };
 
 /// A point to gather at.

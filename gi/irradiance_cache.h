@@ -80,7 +80,7 @@ class IrradianceCache {
   std::vector<LightShare> mixed(std::span<const vec3> gains) const;
   /// Returns the same. The cache keeps it until it is asked for other gains or has more records, because a frame that
   /// is shaded again and again asks for the same. Threads: one at a time.
-  std::span<const LightShare> keptMix(std::span<const vec3> gains) const;
+  std::span<const LightShare> cachedMix(std::span<const vec3> gains) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;
 

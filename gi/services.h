@@ -8,7 +8,7 @@
 #include "gi/gather/hit_radiance.h"
 #include "gi/method.h"
 #include "raytrace/emitters.h"
-#include "reyes/base/kept_work.h"
+#include "reyes/base/checkpoint.h"
 #include "reyes/deep.h"
 
 #include <atomic>
@@ -29,14 +29,14 @@ struct GiSettings {
 };
 
 /// Everything that decides the value of an irradiance record, and how far it may be used.
-struct GatherPlan {
+struct CacheKey {
   CacheSettings cache;
   GatherSettings gather;
-  bool operator==(const GatherPlan&) const = default;
+  bool operator==(const CacheKey&) const = default;
 };
 
 struct PreparedCache {
-  GatherPlan plan;
+  CacheKey key;
   IrradianceCache cache;
   /// A checksum of what the pixels see, for each frame for which the cache has been refined.
   std::vector<uint64_t> frames{};
@@ -86,7 +86,7 @@ class GiServices final : public ShadeServices {
             const MapNames& names, uint64_t world) const;
 
   /// Has the gather pass keep what it has made, and take over what an interrupted run has. Null: nothing is kept.
-  void keepWork(KeptWork* kept);
+  void useCheckpoint(Checkpoint* kept);
 
   /// Sets the maps that gather rays look up in GiMode::Atlas, before the gather pass, and shaded points in
   /// GiMode::Baked.
@@ -165,8 +165,8 @@ class GiServices final : public ShadeServices {
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                        const ShadeContext&, IndirectResult out) const override;
   bool followsLobes() const override;
-  void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way, const IndirectQuery& query,
-                     const ShadeContext& context, TmVec3 out) const override;
+  void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
+                     const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const override;
 
  private:
   struct Impl;

@@ -42,7 +42,7 @@ void reportNotFinite(const Object& o, Log& log) {
 
 }  // namespace
 
-/// A tile that is being planned, with its rate at each level.
+/// A tile of a patch, with its rate at each level.
 struct Chunks::Piece {
   UvRect rect;
   std::array<CoarseRate, kLevelsInChunks> rate;
@@ -50,7 +50,7 @@ struct Chunks::Piece {
 };
 
 /// A patch with its pieces.
-struct Chunks::Planned {
+struct Chunks::TiledPatch {
   int object = -1;
   uint32_t patch = 0;
   std::vector<Piece> pieces;
@@ -78,20 +78,20 @@ Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& sh
          !elsewhere[i] && o.attributes->trace.rate != TessellationMode::Fixed && p < o.shape().patchCount(); ++p)
       if (hasLevels(o, p, times[static_cast<size_t>(o.group)].size() > 1)) patches.emplace_back(static_cast<int>(i), p);
   }
-  std::vector<Planned> planned(patches.size());
+  std::vector<TiledPatch> tiled(patches.size());
   parallelFor(patches.size(), 16, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) planned[i] = plan(patches[i].first, patches[i].second, camera);
+    for (size_t i = begin; i < end; ++i) tiled[i] = cutIntoTiles(patches[i].first, patches[i].second, camera);
   });
-  pack(planned);
+  pack(tiled);
 }
 
-Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) const {
+Chunks::TiledPatch Chunks::cutIntoTiles(int object, uint32_t patch, const Camera& camera) const {
   const Object& o = scene_.objects[static_cast<size_t>(object)];
   const std::array<CoarseRate, kLevelsInChunks> rates = levelRates(scene_, camera, object, patch, log_);
   const auto tiles = [](int count) { return (count + kTile - 1) / kTile; };
   const int across = tiles(rates[0].nu), along = tiles(rates[0].nv);
   const auto at = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
-  Planned out{object, patch, {}, {}};
+  TiledPatch out{object, patch, {}, {}};
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < across; ++i) {
       Piece piece{{at(i, across), at(i + 1, across), at(j, along), at(j + 1, along)}, {}, {}};
@@ -111,10 +111,10 @@ Chunks::Planned Chunks::plan(int object, uint32_t patch, const Camera& camera) c
 }
 
 /// Measures the deviation of a part of the piece at each level. A hash chooses the part.
-void Chunks::measure(Planned& planned, Piece& piece) const {
-  const Object& o = scene_.objects[static_cast<size_t>(planned.object)];
+void Chunks::measure(TiledPatch& tiled, Piece& piece) const {
+  const Object& o = scene_.objects[static_cast<size_t>(tiled.object)];
   const auto displaced = [&](const UvRect& part, int nu, int nv) {
-    Grid g = tomales::dice(scene_, planned.object, planned.patch, part, nu, nv, 1);
+    Grid g = tomales::dice(scene_, tiled.object, tiled.patch, part, nu, nv, 1);
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) return g;
     // The displacement bound may be too small.
@@ -129,7 +129,7 @@ void Chunks::measure(Planned& planned, Piece& piece) const {
     const auto [nu, nv] = piece.rate[index(level)];
     const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
     const uint32_t name =
-        hashCombine(o.name, planned.patch, static_cast<uint32_t>(planned.pieces.size()), static_cast<uint32_t>(level));
+        hashCombine(o.name, tiled.patch, static_cast<uint32_t>(tiled.pieces.size()), static_cast<uint32_t>(level));
     const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
     const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
     const auto within = [](float a, float b, int k, int n) {
@@ -138,19 +138,19 @@ void Chunks::measure(Planned& planned, Piece& piece) const {
     const UvRect part{within(piece.rect.u0, piece.rect.u1, i, nu), within(piece.rect.u0, piece.rect.u1, i + u, nu),
                       within(piece.rect.v0, piece.rect.v1, j, nv), within(piece.rect.v0, piece.rect.v1, j + v, nv)};
     if (const Grid g = displaced(part, 2 * u, 2 * v); isFinite(g))
-      planned.deviation[index(level)] = std::max(planned.deviation[index(level)], doubledDeviation(g, 0));
+      tiled.deviation[index(level)] = std::max(tiled.deviation[index(level)], doubledDeviation(g, 0));
   }
 }
 
-void Chunks::pack(const std::vector<Planned>& planned) {
+void Chunks::pack(const std::vector<TiledPatch>& tiled) {
   struct Placed {
     uint32_t group, place;
-    const Planned* of;
+    const TiledPatch* of;
     const Piece* piece;
   };
   std::vector<Bound3> ofGroup(scene_.groups.size());
   std::vector<Placed> placed;
-  for (const Planned& p : planned) {
+  for (const TiledPatch& p : tiled) {
     const auto group = static_cast<uint32_t>(scene_.objects[static_cast<size_t>(p.object)].group);
     for (size_t l = 0; l < kLevelsInChunks; ++l)
       deviations_[group][l] = std::max(deviations_[group][l], p.deviation[l]);
@@ -186,16 +186,16 @@ void Chunks::pack(const std::vector<Planned>& planned) {
 
 ChunkMesh Chunks::dice(size_t chunk) const {
   ChunkMesh out;
-  const std::vector<Tile>& tiles = chunks_[chunk].tiles;
+  const std::vector<PatchTile>& tiles = chunks_[chunk].tiles;
   size_t vertices = 0;
-  for (const Tile& t : tiles) {
+  for (const PatchTile& t : tiles) {
     const auto [nu, nv] = t.rate;
     out.firstVertex.push_back(static_cast<uint32_t>(vertices));
     vertices += static_cast<size_t>(nu + 1) * static_cast<size_t>(nv + 1);
   }
   out.P.reserve(vertices + 1);
   out.N.reserve(vertices);
-  for (const Tile& t : tiles) {
+  for (const PatchTile& t : tiles) {
     const Object& o = scene_.objects[static_cast<size_t>(t.object)];
     const auto [nu, nv] = t.rate;
     Grid g = tomales::dice(scene_, t.object, t.patch, t.rect, nu, nv, 1);

@@ -13,7 +13,7 @@
 namespace tomales {
 
 /// A rectangle of one patch. All levels have the same rectangles, and neighbours share their edges.
-struct Tile {
+struct PatchTile {
   int object;
   uint32_t patch;
   UvRect rect;
@@ -24,7 +24,7 @@ struct Chunk {
   uint32_t group;
   Level level;
   Bound3 bound;  ///< Holds the vertices of all levels, so it may be larger than this level needs.
-  std::vector<Tile> tiles;
+  std::vector<PatchTile> tiles;
 };
 
 /// Lattices of the tiles of a chunk, with rows along u, one after the other.
@@ -65,11 +65,11 @@ class Chunks {
   int64_t finePolygons() const { return finePolygons_; }
 
  private:
-  struct Planned;
-  Planned plan(int object, uint32_t patch, const Camera& camera) const;
+  struct TiledPatch;
+  TiledPatch cutIntoTiles(int object, uint32_t patch, const Camera& camera) const;
   struct Piece;
-  void measure(Planned& planned, Piece& piece) const;
-  void pack(const std::vector<Planned>& planned);
+  void measure(TiledPatch& tiled, Piece& piece) const;
+  void pack(const std::vector<TiledPatch>& tiled);
 
   const Scene& scene_;
   const ShadingSystem& shading_;

@@ -141,7 +141,7 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::resident(uint32_t ch
 /// Notes the bounds of a chunk's vertices. The cache makes a slot on one thread at a time.
 void EmbreeChunks::learnExtent(uint32_t chunk, const ChunkMesh& mesh) const {
   Extent& out = extents_[chunk];
-  const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
+  const std::vector<PatchTile>& tiles = chunks_.all()[chunk].tiles;
   int held = kPartPolygons;
   for (size_t t = 0; t < tiles.size(); ++t) {
     const auto [nu, nv] = tiles[t].rate;
@@ -175,7 +175,7 @@ std::shared_ptr<const EmbreeChunks::Resident> EmbreeChunks::build(uint32_t chunk
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, out->mesh.P.data(), 0,
                              sizeof(vec3), out->mesh.P.size());
-  const std::vector<Tile>& tiles = chunks_.all()[chunk].tiles;
+  const std::vector<PatchTile>& tiles = chunks_.all()[chunk].tiles;
   auto* grids = static_cast<RTCGrid*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), tiles.size()));
   for (size_t t = 0; grids && t < tiles.size(); ++t) {

@@ -61,7 +61,7 @@ void rejectAbsent(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const Geometry& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
   const auto [mesh, quad] = geometry.place(RTCHitN_primID(args->hit, 1, 0));
-  if (!geometry.detail.contains(reinterpret_cast<const Traversal*>(args->context)->level) ||
+  if (!geometry.detail.contains(reinterpret_cast<const Traversal*>(args->context)->detailNumber) ||
       !geometry.meshes[mesh].keeps(quad, RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)))
     args->valid[0] = 0;
 }

@@ -64,7 +64,7 @@ struct Traversal {
   HitList* list = nullptr;
   const Instances* instances = nullptr;
   const RayFilter* filter = nullptr;
-  float level = 0;  ///< Number of the ray, which selects levels of detail.
+  float detailNumber = 0;  ///< Number in 0..1 of the ray, which Geometry::detail contains if the ray sees the geometry.
 
   PolygonHit hit(const Geometry& geometry, float t, uint32_t instanceId, uint32_t primitive, float u, float v,
                  bool leaving, const vec3& normal) const {

@@ -97,7 +97,7 @@ class EllipticalCone {
 
   bool empty() const { return !(total_ > 0); }
 
-  dvec3 sample(const dvec2& xi, double& density) const {
+  dvec3 sample(const dvec2& xi, double& pdf) const {
     double x = 4 * xi.x;
     const int quadrant = std::min(static_cast<int>(x), 3);
     x = (x - quadrant) * total_;
@@ -107,14 +107,14 @@ class EllipticalCone {
     const double within = part * (a + b) / (a + std::sqrt(a * a + part * (b * b - a * a)));
     const double phi = (static_cast<double>(step) + within) * kStep;
     const double versine = xi.y * versineAt(phi), sine = std::sqrt(versine * (2 - versine));
-    density = densityAt(phi);
+    pdf = pdfAt(phi);
     return (quadrant & 1 ? -sine : sine) * std::cos(phi) * x_ + (quadrant & 2 ? -sine : sine) * std::sin(phi) * y_ +
            (1 - versine) * z_;
   }
 
   /// Pre: the direction is inside.
-  double density(const dvec3& direction) const {
-    return densityAt(std::atan2(std::abs(dot(direction, y_)), std::abs(dot(direction, x_))));
+  double pdf(const dvec3& direction) const {
+    return pdfAt(std::atan2(std::abs(dot(direction, y_)), std::abs(dot(direction, x_))));
   }
 
  private:
@@ -128,7 +128,7 @@ class EllipticalCone {
   }
   double weight(size_t step) const { return 0.5 * (width_[step] + width_[step + 1]); }
   /// phi is in 0 to a quarter turn.
-  double densityAt(double phi) const {
+  double pdfAt(double phi) const {
     const double x = phi / kStep;
     const size_t step = std::min(static_cast<size_t>(x), kSteps - 1);
     const double width = glm::mix(width_[step], width_[step + 1], x - static_cast<double>(step));
@@ -198,8 +198,8 @@ PlanePoint planePoint(const EmitterShape& flat, const vec3& from, const dvec3& d
   return {P, dot(P, u) / dot(u, u), dot(P, v) / dot(v, v), true};
 }
 
-SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double density) {
-  return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(density)};
+SeenPoint onFlat(const EmitterShape& flat, const dvec3& fromCenter, double pdf) {
+  return {vec3(dvec3(flat.center) + fromCenter), flat.normal, static_cast<float>(pdf)};
 }
 
 /// Rounding must neither lose the whole shape nor brighten it by a wrong solid angle: far or edge-on shapes are sampled
@@ -208,16 +208,16 @@ bool isSmall(double solidAngle) { return !(solidAngle > kLeastSolidAngle); }
 
 SeenPoint byArea(const EmitterShape& flat, const vec3& from, const vec2& xi) {
   SeenPoint out = sampleArea(flat, xi);
-  out.density = static_cast<float>(solidAngleDensity(from, out.P, out.N, double{out.density}));
+  out.pdf = static_cast<float>(solidAnglePdf(from, out.P, out.N, double{out.pdf}));
   return out;
 }
 
 }  // namespace
 
-double solidAngleDensity(const vec3& from, const vec3& P, const vec3& N, double areaDensity) {
+double solidAnglePdf(const vec3& from, const vec3& P, const vec3& N, double areaPdf) {
   const dvec3 path = dvec3(P) - dvec3(from);
   const double d2 = dot(path, path), cosine = -dot(dvec3(N), path) / std::sqrt(d2);
-  return d2 > 0 && cosine > kLeastCosine ? areaDensity * d2 / cosine : 0;
+  return d2 > 0 && cosine > kLeastCosine ? areaPdf * d2 / cosine : 0;
 }
 
 vec3 directionOnSphere(const vec2& xi) {
@@ -231,13 +231,13 @@ float EmitterShape::area() const {
 }
 
 SeenPoint sampleArea(const EmitterShape& shape, const vec2& xi) {
-  const float density = 1 / shape.area();
+  const float pdf = 1 / shape.area();
   if (shape.kind == EmitterShape::Kind::Sphere) {
     const vec3 N = directionOnSphere(xi);
-    return {shape.center + glm::length(shape.u) * N, N, density};
+    return {shape.center + glm::length(shape.u) * N, N, pdf};
   }
   const vec2 at = shape.kind == EmitterShape::Kind::Disk ? vec2(cosineHemisphere(xi)) : 2.0f * xi - 1.0f;
-  return {shape.center + at.x * shape.u + at.y * shape.v, shape.normal, density};
+  return {shape.center + at.x * shape.u + at.y * shape.v, shape.normal, pdf};
 }
 
 SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const vec2& xi) {
@@ -251,10 +251,10 @@ SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const ve
   }
   const EllipticalCone cone(shape, from);
   if (cone.empty()) return byArea(shape, from, xi);
-  double density = 0;
-  const dvec3 direction = cone.sample(dvec2(xi), density);
+  double pdf = 0;
+  const dvec3 direction = cone.sample(dvec2(xi), pdf);
   const PlanePoint at = planePoint(shape, from, direction);
-  return at.seen ? onFlat(shape, at.P, density) : SeenPoint{};
+  return at.seen ? onFlat(shape, at.P, pdf) : SeenPoint{};
 }
 
 SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& direction) {
@@ -262,17 +262,17 @@ SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& directio
   if (shape.kind == EmitterShape::Kind::Sphere) return meetSphere(shape, from, unit);
   const PlanePoint at = planePoint(shape, from, unit);
   if (!at.seen) return {};
-  const auto areaDensity = [&] {
-    return solidAngleDensity(from, vec3(dvec3(shape.center) + at.P), shape.normal, 1 / double{shape.area()});
+  const auto areaPdf = [&] {
+    return solidAnglePdf(from, vec3(dvec3(shape.center) + at.P), shape.normal, 1 / double{shape.area()});
   };
   if (shape.kind == EmitterShape::Kind::Rectangle) {
     if (std::abs(at.u) > 1 || std::abs(at.v) > 1) return {};
     const SphericalRectangle seen(shape, from);
-    return onFlat(shape, at.P, isSmall(seen.solidAngle()) ? areaDensity() : 1 / seen.solidAngle());
+    return onFlat(shape, at.P, isSmall(seen.solidAngle()) ? areaPdf() : 1 / seen.solidAngle());
   }
   if (at.u * at.u + at.v * at.v > 1) return {};
   const EllipticalCone cone(shape, from);
-  return onFlat(shape, at.P, cone.empty() ? areaDensity() : cone.density(unit));
+  return onFlat(shape, at.P, cone.empty() ? areaPdf() : cone.pdf(unit));
 }
 
 }  // namespace tomales

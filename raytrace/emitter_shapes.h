@@ -20,11 +20,11 @@ struct EmitterShape {
   float area() const;
 };
 
-/// A point of an emitter, as seen from another point. density 0: nothing shines from there, and the other members are
+/// A point of an emitter, as seen from another point. pdf 0: nothing shines from there, and the other members are
 /// not set.
 struct SeenPoint {
-  vec3 P{0}, N{0};    ///< N: unit normal of the shining side.
-  float density = 0;  ///< Probability density of samples there, over solid angle.
+  vec3 P{0}, N{0};  ///< N: unit normal of the shining side.
+  float pdf = 0;    ///< Probability density of samples there, over solid angle.
 };
 
 SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const vec2& xi);
@@ -32,7 +32,7 @@ SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const ve
 SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& direction);
 
 /// Converts a density over area to one over solid angle. It becomes 0 where the back is seen.
-double solidAngleDensity(const vec3& from, const vec3& P, const vec3& N, double areaDensity);
+double solidAnglePdf(const vec3& from, const vec3& P, const vec3& N, double areaPdf);
 
 /// Returns a direction, uniform over the sphere.
 vec3 directionOnSphere(const vec2& xi);

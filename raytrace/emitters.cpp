@@ -102,11 +102,11 @@ EmitterTable tableOf(const Scene& scene, const std::vector<CoarseGroup>& groups)
   return table;
 }
 
-void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double density, double meetDensity) {
+void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double pdf, double meetPdf) {
   set(out.P, i, P);
   set(out.N, i, N);
-  out.density[i] = static_cast<float>(density);
-  if (out.meetDensity) out.meetDensity[i] = static_cast<float>(meetDensity);
+  out.pdf[i] = static_cast<float>(pdf);
+  if (out.meetPdf) out.meetPdf[i] = static_cast<float>(meetPdf);
 }
 
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
@@ -211,13 +211,13 @@ bool Emitters::sampleFrom(int light, int count, TmConstVec3 from, const float* x
     const vec3 eye = at(from, i);
     if (pick < emitters.shapes.size()) {
       const SeenPoint p = sampleSolidAngle(emitters.shapes[pick], eye, {static_cast<float>(u), xi1[i]});
-      put(out, i, p.P, p.N, share * double{p.density}, share * double{p.density});
+      put(out, i, p.P, p.N, share * double{p.pdf}, share * double{p.pdf});
       continue;
     }
     const Source& source = l.sources[pick - emitters.shapes.size()];
     const AreaPoint p = onLattice(emitters, source, u, double{xi1[i]});
-    const double density = p.area > 0 ? share * solidAngleDensity(eye, p.P, p.N, 1 / p.area) : 0;
-    put(out, i, p.P, p.N, density, density > 0 && source.met ? l.facetDensity(eye, p.P, p.N) : 0);
+    const double pdf = p.area > 0 ? share * solidAnglePdf(eye, p.P, p.N, 1 / p.area) : 0;
+    put(out, i, p.P, p.N, pdf, pdf > 0 && source.met ? l.facetPdf(eye, p.P, p.N) : 0);
   }
   return true;
 }
@@ -229,11 +229,11 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
     put(out, i, eye, vec3(0), 0, 0);
     for (size_t s = 0; known(light) && s < given(light).shapes.size(); ++s) {
       const SeenPoint p = tomales::meet(given(light).shapes[s], eye, at(direction, i));
-      const float distance = p.density > 0 ? glm::length(p.P - eye) : kInfinity;
+      const float distance = p.pdf > 0 ? glm::length(p.P - eye) : kInfinity;
       if (!(distance < nearest)) continue;
       nearest = distance;
-      const double density = sources(light).areas.weight(s) / sources(light).areas.total() * double{p.density};
-      put(out, i, p.P, p.N, density, density);
+      const double pdf = sources(light).areas.weight(s) / sources(light).areas.total() * double{p.pdf};
+      put(out, i, p.P, p.N, pdf, pdf);
     }
     if (!known(light)) continue;
     for (const EmitterFacet& facet : sources(light).facets) {
@@ -241,8 +241,8 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
       if (!(distance < nearest)) continue;
       nearest = distance;
       const vec3 P = eye + distance * at(direction, i);
-      const double density = sources(light).facetDensity(eye, P, facet.normal);
-      put(out, i, P, facet.normal, density, density);
+      const double pdf = sources(light).facetPdf(eye, P, facet.normal);
+      put(out, i, P, facet.normal, pdf, pdf);
     }
   }
 }
@@ -258,7 +258,7 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     AreaPoint p;
     if (pick < emitters.shapes.size()) {
       const SeenPoint onShape = sampleArea(emitters.shapes[pick], {static_cast<float>(u), xi1[i]});
-      p = {onShape.P, onShape.N, 1 / double{onShape.density}, emitters.shapes[pick].group};
+      p = {onShape.P, onShape.N, 1 / double{onShape.pdf}, emitters.shapes[pick].group};
     } else {
       p = onLattice(emitters, l.sources[pick - emitters.shapes.size()], u, double{xi1[i]});
     }

@@ -71,8 +71,8 @@ class Emitters {
     std::vector<EmitterFacet> facets;
     /// Returns the density over solid angle by which samples of the light and directions that meet it are weighed
     /// against each other, as if all polygons were sampled uniformly by area.
-    double facetDensity(const vec3& from, const vec3& P, const vec3& N) const {
-      return solidAngleDensity(from, P, N, 1 / areas.total());
+    double facetPdf(const vec3& from, const vec3& P, const vec3& N) const {
+      return solidAnglePdf(from, P, N, 1 / areas.total());
     }
   };
   struct AreaPoint {

@@ -11,11 +11,6 @@ namespace {
 /// Radius of the footprint of a ray without one, for each unit of its length: about a pixel.
 constexpr float kLeastSpread = 5e-4f;
 
-int primvarFloats(const ShadeGroup& group) {
-  return std::accumulate(group.primvars.begin(), group.primvars.end(), 0,
-                         [](int sum, const Primvar& p) { return sum + p.width; });
-}
-
 int widthOf(const std::vector<Primvar>& primvars, std::string_view name) {
   return std::find_if(primvars.begin(), primvars.end(), [&](const Primvar& p) { return p.name == name; })->width;
 }
@@ -109,10 +104,10 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
     else
       return false;
   } else if (what == "attribute") {
-    const auto it = group.attributes->user.find(std::string(key));
-    if (it == group.attributes->user.end()) return false;
+    const Param* param = findParam(group.attributes->user, std::string(key));
+    if (!param) return false;
     for (size_t k = 0; k < 3; ++k)
-      out[static_cast<int>(k)] = it->second.floats.size() == 3 ? it->second.floats[k] : it->second.number(0);
+      out[static_cast<int>(k)] = param->floats.size() == 3 ? param->floats[k] : param->number(0);
   } else {
     return false;
   }
@@ -168,14 +163,14 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     while (last < order.size() && groupOf[order[last]] == g) ++last;
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
     const Attributes& attributes = *group.attributes;
-    ShadePoints points(g, primvarFloats(group), shading.wantsSteps(g));
+    ShadePoints points(g, floatsOfPoint(group.primvars), shading.wantsSteps(g));
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(*impl_, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades =
         answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     emission.clear();
-    if (!diffuse && context.lampsGlow) shading.emission(points, emission, context);
+    if (!diffuse && context.seesAreaLights) shading.areaLightRadiance(points, emission, context);
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = order[k];
       const int p = static_cast<int>(k - first);
@@ -216,7 +211,7 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
     while (last < order.size() && groupOf[order[last]] == g) ++last;
     for (const bool inside : {false, true}) {
       if (!shading.hasVolume(g, inside)) continue;
-      ShadePoints ends(g, primvarFloats(impl_->scene.groups[static_cast<size_t>(g)]), shading.wantsSteps(g));
+      ShadePoints ends(g, floatsOfPoint(impl_->scene.groups[static_cast<size_t>(g)].primvars), shading.wantsSteps(g));
       std::vector<uint32_t> which;
       for (size_t k = first; k < last; ++k) {
         const uint32_t i = order[k];

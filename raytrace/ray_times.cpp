@@ -41,8 +41,9 @@ int stepsFor(const std::vector<float>& keys) {
 }  // namespace
 
 bool raysHaveTimes(const Scene& scene) {
-  return scene.shutterIsOpen() && std::any_of(scene.groups.begin(), scene.groups.end(),
-                                              [](const ShadeGroup& g) { return g.attributes->trace.sampleMotion; });
+  return scene.options.shutterIsOpen() &&
+         std::any_of(scene.groups.begin(), scene.groups.end(),
+                     [](const ShadeGroup& g) { return g.attributes->trace.sampleMotion; });
 }
 
 std::vector<std::vector<float>> rayTimes(const Scene& scene) {

@@ -145,7 +145,7 @@ void RayScene::Impl::resolve(const Ray& ray, const PolygonHit& polygon, Hit& out
 }
 
 Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
-  const Tile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
+  const PatchTile& tile = chunks.all()[static_cast<size_t>(hit.chunk)].tiles[hit.quad];
   const vec3 along = groups[hit.group].flipsNormal ? -hit.normal : hit.normal, normal = embree.normal(hit);
   return {hit.t,
           tile.object,

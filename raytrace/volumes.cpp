@@ -33,8 +33,8 @@ vec3 Volumes::passed(const Ray& ray, float tMax, uint32_t mask) const {
   vec3 depth(0);
   for (const Volume& v : list_)
     if (seenBy(ray, v, mask))
-      depth += v.extinction * v.density->amount(transformPoint(v.objectFromCurrent, ray.origin),
-                                                transformVector(v.objectFromCurrent, ray.direction), 0, tMax);
+      depth += v.extinction * v.density->columnDensity(transformPoint(v.objectFromCurrent, ray.origin),
+                                                       transformVector(v.objectFromCurrent, ray.direction), 0, tMax);
   return depth == vec3(0) ? vec3(1) : glm::exp(-unitAlong(ray.direction) * depth);
 }
 
@@ -79,11 +79,11 @@ void Volumes::crossOne(std::span<const Crossing> crossings, const std::vector<Ra
                        const ShadeContext& context, HitAnswers& answers) const {
   const Volume& volume = *crossings[0].volume;
   ShadePoints ends(volume.group, 0, shading.wantsSteps(volume.group));
-  std::vector<DensityWay> ways;
+  std::vector<DensityAlongRay> ways;
   std::vector<uint32_t> which;
   for (const Crossing& c : crossings) {
     const Ray& ray = rays[c.ray];
-    DensityWay& way = ways.emplace_back();
+    DensityAlongRay& way = ways.emplace_back();
     volume.density->cross(transformPoint(volume.objectFromCurrent, ray.origin),
                           transformVector(volume.objectFromCurrent, ray.direction), c.enters, c.leaves,
                           unitAlong(ray.direction), way);

@@ -16,30 +16,31 @@ size_t within(const ivec3& point) {
 }
 
 /// Returns the piece that ends at `next`, up to a share of it.
-DensityWay::Place inPiece(const DensityWay::Knot* next, float distance, float amount) {
-  const float length = next->distance - (next - 1)->distance, holds = next->amount - (next - 1)->amount;
-  return {distance, amount, length > 0 ? holds / length : 0};
+DensityAlongRay::Place inPiece(const DensityAlongRay::Knot* next, float distance, float columnDensity) {
+  const float length = next->distance - (next - 1)->distance, holds = next->columnDensity - (next - 1)->columnDensity;
+  return {distance, columnDensity, length > 0 ? holds / length : 0};
 }
 
 }  // namespace
 
-DensityWay::Place DensityWay::atDistance(float distance) const {
+DensityAlongRay::Place DensityAlongRay::atDistance(float distance) const {
   if (empty()) return {distance, 0, 0};
   const auto found = std::upper_bound(knots.begin() + 1, knots.end() - 1, distance,
                                       [](float d, const Knot& k) { return d < k.distance; });
   const Knot &a = *(found - 1), &b = *found;
   const float share = glm::clamp((distance - a.distance) / (b.distance - a.distance), 0.0f, 1.0f);
-  return inPiece(&b, distance, glm::mix(a.amount, b.amount, share));
+  return inPiece(&b, distance, glm::mix(a.columnDensity, b.columnDensity, share));
 }
 
-DensityWay::Place DensityWay::atAmount(float amount) const {
-  if (empty()) return {0, amount, 0};
-  const auto found =
-      std::lower_bound(knots.begin() + 1, knots.end(), amount, [](const Knot& k, float x) { return k.amount < x; });
+DensityAlongRay::Place DensityAlongRay::atColumnDensity(float columnDensity) const {
+  if (empty()) return {0, columnDensity, 0};
+  const auto found = std::lower_bound(knots.begin() + 1, knots.end(), columnDensity,
+                                      [](const Knot& k, float x) { return k.columnDensity < x; });
   const Knot& b = found == knots.end() ? knots.back() : *found;
   const Knot& a = *(&b - 1);
-  const float holds = b.amount - a.amount, share = holds > 0 ? (amount - a.amount) / holds : 1.0f;
-  return inPiece(&b, glm::mix(a.distance, b.distance, glm::clamp(share, 0.0f, 1.0f)), amount);
+  const float holds = b.columnDensity - a.columnDensity,
+              share = holds > 0 ? (columnDensity - a.columnDensity) / holds : 1.0f;
+  return inPiece(&b, glm::mix(a.distance, b.distance, glm::clamp(share, 0.0f, 1.0f)), columnDensity);
 }
 
 DensityGrid::DensityGrid(const ivec3& first, const ivec3& last, const mat4& indexFromObject, const Bound3& bound)
@@ -115,7 +116,7 @@ float DensityGrid::integral(const ivec3& cell, const vec3& origin, const vec3& d
   return half * sum;
 }
 
-/// Calls visit(end, amount) for pieces of the line, in order. J. Amanatides and A. Woo, "A Fast Voxel Traversal
+/// Calls visit(end, columnDensity) for pieces of the line, in order. J. Amanatides and A. Woo, "A Fast Voxel Traversal
 /// Algorithm for Ray Tracing", 1987, which steps over whole bricks that hold nothing.
 template <class Visit>
 void DensityGrid::walk(const vec3& from, const vec3& to, float t0, float t1, const Visit& visit) const {
@@ -162,16 +163,17 @@ bool cutLine(const Bound3& box, const vec3& origin, const vec3& direction, float
 }
 
 void DensityGrid::cross(const vec3& origin, const vec3& direction, float t0, float t1, float unit,
-                        DensityWay& out) const {
+                        DensityAlongRay& out) const {
   out.knots.clear();
   const float start = t0;
   if (!cutLine(bound_, origin, direction, t0, t1)) return;
   out.knots.push_back({0, 0});
   if (t0 > start) out.knots.push_back({(t0 - start) * unit, 0});
-  walk(origin, direction, t0, t1, [&](float end, float amount) {
-    DensityWay::Knot& last = out.knots.back();
-    const DensityWay::Knot next{(end - start) * unit, last.amount + amount * unit};
-    const bool goesOn = amount == 0 && out.knots.size() > 1 && out.knots[out.knots.size() - 2].amount == last.amount;
+  walk(origin, direction, t0, t1, [&](float end, float columnDensity) {
+    DensityAlongRay::Knot& last = out.knots.back();
+    const DensityAlongRay::Knot next{(end - start) * unit, last.columnDensity + columnDensity * unit};
+    const bool goesOn = columnDensity == 0 && out.knots.size() > 1 &&
+                        out.knots[out.knots.size() - 2].columnDensity == last.columnDensity;
     if (goesOn)
       last = next;
     else if (next.distance > last.distance)
@@ -179,10 +181,10 @@ void DensityGrid::cross(const vec3& origin, const vec3& direction, float t0, flo
   });
 }
 
-float DensityGrid::amount(const vec3& origin, const vec3& direction, float t0, float t1) const {
+float DensityGrid::columnDensity(const vec3& origin, const vec3& direction, float t0, float t1) const {
   float sum = 0;
   if (cutLine(bound_, origin, direction, t0, t1))
-    walk(origin, direction, t0, t1, [&](float, float amount) { sum += amount; });
+    walk(origin, direction, t0, t1, [&](float, float columnDensity) { sum += columnDensity; });
   return sum;
 }
 

@@ -9,19 +9,19 @@
 namespace tomales {
 
 /// The density along a ray, piece by piece: within each piece it is constant.
-struct DensityWay {
+struct DensityAlongRay {
   struct Knot {
-    float distance, amount;
+    float distance, columnDensity;
   };
   std::vector<Knot> knots;  ///< Both numbers start at 0, and neither decreases.
 
-  bool empty() const { return knots.empty() || !(knots.back().amount > 0); }
-  float amount() const { return knots.empty() ? 0 : knots.back().amount; }
+  bool empty() const { return knots.empty() || !(knots.back().columnDensity > 0); }
+  float columnDensity() const { return knots.empty() ? 0 : knots.back().columnDensity; }
   struct Place {
-    float distance, amount, density;
+    float distance, columnDensity, density;
   };
   Place atDistance(float distance) const;
-  Place atAmount(float amount) const;
+  Place atColumnDensity(float columnDensity) const;
 };
 
 class DensityGrid {
@@ -44,11 +44,11 @@ class DensityGrid {
   const Bound3& bound() const { return bound_; }
   float at(const ivec3& point) const;
 
-  /// Adds the density along a ray of object space: origin + t direction, from t0 to t1. The amount is the integral of
-  /// the density over t times `unit`, and distances are t times `unit` from t0 on.
-  void cross(const vec3& origin, const vec3& direction, float t0, float t1, float unit, DensityWay& out) const;
-  /// Returns the amount alone, as cross() finds it.
-  float amount(const vec3& origin, const vec3& direction, float t0, float t1) const;
+  /// Adds the density along a ray of object space: origin + t direction, from t0 to t1. The column density is the
+  /// integral of the density over t times `unit`, and distances are t times `unit` from t0 on.
+  void cross(const vec3& origin, const vec3& direction, float t0, float t1, float unit, DensityAlongRay& out) const;
+  /// Returns the column density alone, as cross() finds it.
+  float columnDensity(const vec3& origin, const vec3& direction, float t0, float t1) const;
 
   size_t bytes() const { return values_.capacity() * sizeof(float) + brickOf_.capacity() * sizeof(int32_t); }
 

@@ -18,9 +18,4 @@ bool isMadeForBmrt(const Scene& scene) {
   return false;
 }
 
-std::string wordOf(const Options& options, const std::string& key) {
-  const auto it = options.user.find(key);
-  return it == options.user.end() || it->second.strings.empty() ? "" : it->second.strings.front();
-}
-
 }  // namespace tomales

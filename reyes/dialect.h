@@ -9,7 +9,4 @@ namespace tomales {
 /// "bucketsize", "gridsize", "eyesplits"). It is false for a scene for both.
 bool isMadeForBmrt(const Scene& scene);
 
-/// Returns the word that an option of that name has. Empty if neither the scene nor the command line gives one.
-std::string wordOf(const Options& options, const std::string& key);
-
 }  // namespace tomales

@@ -1,7 +1,7 @@
 // Verb: rectangles of patches -> Grid. Evaluates one primitive on regular lattices of equal counts, at every motion
 // key.
 //   in     object, patches, rectangles and counts that split.h (or a ray tessellator) chose
-//   out    vertices: P in camera space per key, N, (u,v) and every primitive variable
+//   out    vertices: P per key in the space that DiceKeys names, N, (u,v) and every primitive variable
 //   never  projects, culls, displaces or shades
 // Crack rule: a vertex on an edge depends only on the edge's parameters and its count along it, so neighbours with
 // equal counts agree bit for bit; unequal counts are closed by the hider (docs/decisions/0003). Threads: concurrent
@@ -14,10 +14,11 @@
 
 namespace tomales {
 
-/// The times at which vertices are evaluated, one motion key each, and the transformation at these.
+/// The times at which vertices are evaluated, one motion key each, and the transformation at these:
+/// Object::cameraFromObject for the hider, Object::currentFromObject for rays, which do not see the camera move.
 struct DiceKeys {
   const std::vector<float>& times;
-  const Motion& currentFromObject;
+  const Motion& targetFromObject;
 };
 
 /// Dices several pieces. Each has its own vertices, shared with no other. pool: provides the memory of the vertices;

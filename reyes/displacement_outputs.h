@@ -6,15 +6,14 @@
 
 namespace tomales {
 
-/// The name of such a variable begins with this. So do the names by which Attributes::user keeps their types.
+/// The name of such a variable begins with this.
 inline constexpr std::string_view kOfDisplacement = "displacement:";
 
 /// Returns the layout of all of an object, in the order in which they follow its primitive variables.
-inline std::vector<Primvar> displacementOutputs(const Attributes& a) {
+inline std::vector<Primvar> displacementVariables(const Attributes& a) {
   std::vector<Primvar> out;
-  for (auto it = a.user.lower_bound(std::string(kOfDisplacement));
-       it != a.user.end() && it->first.starts_with(kOfDisplacement); ++it)
-    out.push_back({it->first, Storage::Vertex, it->second.type, floatsPerValue(it->second.type), {}});
+  for (const Param& p : a.displacementOutputs)
+    out.push_back({std::string(kOfDisplacement) + p.name, Storage::Vertex, p.type, floatsPerValue(p.type), {}});
   return out;
 }
 

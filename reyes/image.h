@@ -176,7 +176,7 @@ bool makeShadow(const std::string& picture, const std::string& map, const Source
 /// Joins OpenEXR pictures of crop windows of one frame to the file that the whole frame would have written, with its
 /// parts, channels, deep pixels and headers. `crop` is the frame's own crop window. Throws FileError if they are not of
 /// one frame, leave pixels out or differ where they overlap, and WriteError.
-void joinPictures(const std::vector<std::string>& tiles, const std::string& output,
+void joinPictures(const std::vector<std::string>& crops, const std::string& output,
                   const std::optional<std::array<float, 4>>& crop);
 /// Reads the channels of all parts of an OpenEXR file, which have the window of the first. Throws FileError.
 Image readParts(const std::string& picture);

@@ -1,5 +1,7 @@
 #include "reyes/prim.h"
 
+#include <numeric>
+
 namespace tomales {
 
 int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
@@ -9,6 +11,10 @@ int offsetOf(const std::vector<Primvar>& primvars, std::string_view name) {
     offset += p.width;
   }
   return -1;
+}
+
+int floatsOfPoint(const std::vector<Primvar>& primvars) {
+  return std::accumulate(primvars.begin(), primvars.end(), 0, [](int sum, const Primvar& p) { return sum + p.width; });
 }
 
 size_t Prim::bytes() const {

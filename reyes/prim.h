@@ -69,6 +69,8 @@ struct Primvar {
 /// Returns the offset of a variable among the floats of a point, which has those of all variables in their order; -1 if
 /// none has that name.
 int offsetOf(const std::vector<Primvar>& primvars, std::string_view name);
+/// Returns how many floats a point has.
+int floatsOfPoint(const std::vector<Primvar>& primvars);
 
 /// A whole sphere, or a whole flat disk.
 struct RoundShape {

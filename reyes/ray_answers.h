@@ -15,7 +15,7 @@ namespace tomales {
 
 /// One sample of one light, as seen by one run of the shader over part of a batch.
 struct ShadowQuestion {
-  int chunk, light, sample;
+  int subBatch, light, sample;
   auto operator<=>(const ShadowQuestion&) const = default;
 };
 

@@ -53,8 +53,7 @@ class GroupHash {
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
-  const bool open = options.sampleMotion && options.shutterClose > options.shutterOpen;
-  if (open && (cameraFromObject.moving() || !shapeTimes.empty())) {
+  if (options.shutterIsOpen() && (cameraFromObject.moving() || !shapeTimes.empty())) {
     const auto keep = [&](float t) {
       if (t > options.shutterOpen && t < options.shutterClose) times.push_back(t);
     };
@@ -145,7 +144,7 @@ ShadeGroup Scene::groupFor(const Object& o, int index) const {
                .subtracted = o.subtracted};
   if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
   for (const Primvar& p : o.shape().primvars()) g.primvars.push_back({p.name, p.storage, p.type, p.width, {}});
-  for (Primvar& p : displacementOutputs(*o.attributes)) g.primvars.push_back(std::move(p));
+  for (Primvar& p : displacementVariables(*o.attributes)) g.primvars.push_back(std::move(p));
   return g;
 }
 
@@ -171,6 +170,7 @@ Scene Scene::withoutObjects() const {
   out.cameraFromWorld = cameraFromWorld;
   out.lights = lights;
   out.worldFromNamed = worldFromNamed;
+  out.worldFromOpenings = worldFromOpenings;
   out.where = where;
   return out;
 }

@@ -82,10 +82,6 @@ struct Expansion {
   std::vector<Solid> solids{};  ///< Object::solid is an index in this list.
 };
 
-/// Coordinate systems of this name and a number, from 1, are openings to the sky that the program has found
-/// (docs/decisions/0185). No list of portals can name them, because names in a list hold no blanks.
-constexpr const char* kSkyOpening = "opening to the sky ";
-
 struct Scene {
   Options options;
   Motion cameraFromWorld;
@@ -94,15 +90,15 @@ struct Scene {
   std::vector<Procedural> procedurals;  ///< Not opened yet.
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< Spaces of CoordinateSystem requests.
-  SourceLoc where;                             ///< Location of WorldBegin.
+  /// Unit squares through which the program has found that a sky is seen (docs/decisions/0185).
+  std::vector<mat4> worldFromOpenings;
+  SourceLoc where;  ///< Location of WorldBegin.
 
   StableVector<ShadeGroup> groups;  ///< Filled by freeze() and add().
   /// Fills the derived fields above. Call it when all objects and lights are added, and again after changing
   /// attributes.
   void freeze();
 
-  /// Tells whether the shutter is open for some time, and motion wanted. Otherwise nothing is blurred.
-  bool shutterIsOpen() const { return options.sampleMotion && options.shutterClose > options.shutterOpen; }
   /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
   Expansion opened(const Procedural& procedural) const;
   /// Adds the objects of opened(), and their solids, and finds their groups. Returns their indices.
@@ -113,7 +109,7 @@ struct Scene {
   /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void open(const std::function<bool(const Attributes&)>& wanted);
 
-  /// Returns a scene with its options, spaces, lights and place alone.
+  /// Returns a scene with its options, spaces, openings, lights and place alone.
   Scene withoutObjects() const;
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }

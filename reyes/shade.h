@@ -90,7 +90,8 @@ class ShadingSystem {
 
   /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
   /// the area light's shader sends from there, on the front, to the origin of the ray. Empty if nothing shines.
-  void emission(const ShadePoints& points, std::vector<vec3>& radiance, const ShadeContext& context = {}) const;
+  void areaLightRadiance(const ShadePoints& points, std::vector<vec3>& radiance,
+                         const ShadeContext& context = {}) const;
   /// Returns the indirect light switched on for a group, if any: the gather pass must prepare it.
   const IndirectQuery* indirectQuery(int group) const;
   /// Returns the first request among those of all indirect lights but filters; empty if there are no such lights.
@@ -121,7 +122,7 @@ class ShadingSystem {
   /// Returns the medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
   MediumColors medium(int group, bool inside) const;
   /// Tells whether the surface of a group adds radiance of its own.
-  bool emits(int group) const;
+  bool surfaceEmits(int group) const;
   /// Tells whether it reflects the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable
   /// makes it differ).
   bool reflectsEvenly(int group) const;

@@ -1,5 +1,7 @@
 // The interfaces of shading: how a batch of points is to be shaded, and what it may ask of units that know more than
-// the points (ray tracing, global illumination, point clouds). All light is in the RSL convention, E/pi.
+// the points (ray tracing, global illumination, point clouds). Light is in the RSL convention, E/pi; colours along rays
+// are radiance. Space: current, except CloudQuery, which has the file's. Results of points that are not active are left
+// alone. Threads: const members may be called concurrently, and so may bake() and lookUp().
 #pragma once
 #include <optional>
 #include <span>
@@ -42,8 +44,15 @@ struct RayOutput {
 /// The highlights that diffuse rays bring from what they meet.
 enum class HitHighlights : uint8_t {
   None,
-  OfSpecular,  ///< Those of specular(), which sends at most Cl: no brighter than white is, so a few rays know them.
+  OfSpecular,  ///< Those of specular(): no brighter than Cl, so that few rays suffice.
   All,         ///< Shaders add their own too, and follow them by rays, as with the reference path tracer.
+};
+
+/// What a batch is shaded for. Where it is not the picture, nothing is baked, printed or counted.
+enum class Purpose : uint8_t {
+  Picture,    ///< The picture that is kept.
+  Sketch,     ///< Shaders run for a picture that is not kept.
+  Rehearsal,  ///< Shaders run only to learn what they ask: no ray is traced.
 };
 
 /// The purpose of shading a batch, and its settings.
@@ -65,7 +74,7 @@ struct ShadeContext {
   int diffuseLimit = 1 << 20,
       specularLimit = 1 << 20;  ///< Depths beyond which no ray follows, set by the objects on the way.
   std::string label{};          ///< The label of the ray that came here.
-  bool lampsGlow = true;        ///< True if that ray sees area lights.
+  bool seesAreaLights = true;   ///< True if that ray sees area lights.
   /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
   bool mirrored = true;
   /// Indexed by group: 1 if `mirrored` is false for specular rays from the group and for its highlights. Null: for
@@ -74,29 +83,30 @@ struct ShadeContext {
   HitHighlights highlights = HitHighlights::None;
   /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
   RayAnswers* answers = nullptr;
-  bool sketch = false;     ///< Shaders run for no picture that is kept: nothing is baked, printed or counted.
-  bool rehearsal = false;  ///< Shaders run only to learn what they ask: no ray is traced, and nothing baked or printed.
-  float importance = 1;    ///< The weight of what is seen here in the eye's picture.
+  Purpose purpose = Purpose::Picture;
+  float importance = 1;  ///< The weight of what is seen here in the eye's picture.
   /// Number of paths that find indirect light at each point without records or maps, to measure the error of those. 0:
   /// light comes as the frame's method has it.
   int auditPaths = 0;
-  /// Records of light have another draw of their noise (GiServices::redrawRecords): with another seed beside it, the
-  /// picture is one that could have been made as well.
+  /// Records are changed by an independent draw of their noise (GiServices::redrawRecords). With another seed this
+  /// gives an independent picture of the frame, from which its standard error is known.
   bool redrawn = false;
   /// The number of specular rays that one point of the eye has sent. The points that they meet share the weight of that
   /// point.
   int branches = 1;
   /// The Volume that each point's ray crosses (ShadingSystem::crossVolume). Empty: the air is the same everywhere.
-  std::span<const DensityWay> ways{};
-  int chunk = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
+  std::span<const DensityAlongRay> ways{};
+  int subBatch = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
-  bool highlightsLamps(int group) const {
+  bool hasHighlights(int group) const {
     return (kind != RayKind::Diffuse || highlights != HitHighlights::None) &&
            !(focusing && (*focusing)[static_cast<size_t>(group)]);
   }
   /// Tells whether lamps and skies are seen in mirrors and glass of a group.
-  bool mirrorsLamps(int group) const { return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]); }
+  bool seesLightsInMirrors(int group) const {
+    return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]);
+  }
 };
 
 /// Returns the number of samples or rays that bring light to a point. A point that the eye sees gets `count`. Points on
@@ -117,14 +127,14 @@ constexpr int kLeastOfHemisphere = 16;
 /// The options of one set of rays of a shader's call.
 struct RayQuery {
   RayKind kind = RayKind::Specular;
-  float maxDistance = 1e30f;
+  float maxDistance = kRiInfinity;
   float bias = -1;  ///< Bias of the rays; negative if the object's attributes give it.
   std::string label, subset, excludeSubset;
   HitSides sides = HitSides::Both;
   std::optional<HitMode> mode;  ///< Empty if the attributes of the object that is met say it.
   float opacityThreshold = 1;   ///< A ray goes on behind transparent things until this much is covered.
   int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
-  bool lampsGlow = true;        ///< The rays see area lights.
+  bool seesAreaLights = true;   ///< The rays see area lights.
   float importance = 1;         ///< The weight of the light that these rays bring.
   /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null if rays have no
   /// width.
@@ -143,7 +153,7 @@ struct RayResult {
 /// The parameters of an indirect light where it lights (docs/gi.md).
 struct IndirectQuery {
   int samples = 600;
-  float maxError = 1, maxDistance = 1e30f;
+  float maxError = 1, maxDistance = kRiInfinity;
   ErrorFunction errorFunction = ErrorFunction::Screen;
   std::string subset;
   int bounces = 1;
@@ -167,7 +177,7 @@ constexpr float kVariationOfError = 0.05f;
 /// What occlusion() or indirectdiffuse() asks of a hemisphere, weighted by the cosine. Answers may be interpolated.
 struct HemisphereQuery {
   int samples = 1;
-  float maxDistance = 1e30f, bias = -1;
+  float maxDistance = kRiInfinity, bias = -1;
   float falloff = 0;
   int falloffMode = 0;
   float maxVariation = 0;       ///< Greatest error of the answers: absolute for coverage, relative for radiance.
@@ -180,7 +190,7 @@ struct HemisphereQuery {
 
   /// Returns how much of a ray is covered by a hit at that distance.
   float coveredAt(float distance) const {
-    if (!(distance < 1e30f)) return 0;
+    if (!(distance < kRiInfinity)) return 0;
     if (falloff <= 0) return 1;
     return falloffMode == 1 ? std::pow(std::max(0.0f, 1 - distance / maxDistance), falloff)
                             : std::exp(-falloff * distance);
@@ -195,9 +205,9 @@ struct IndirectResult {
 
 /// Points of area lights, as others see them. Arrays of one length.
 struct EmitterPoints {
-  TmVec3 P, N;         ///< N has unit length, on the RISpec side.
-  float* density;      ///< The density of samples there, over solid angle; 0 if nothing shines from there.
-  float* meetDensity;  ///< The same, but 0 where meetEmitter() does not find the point.
+  TmVec3 P, N;     ///< N has unit length, on the RISpec side.
+  float* pdf;      ///< The probability density of samples there, over solid angle; 0 if nothing shines from there.
+  float* meetPdf;  ///< The same, but 0 where meetEmitter() does not find the point.
 };
 
 /// The shadow rays of a light: sample `sample` of `samples`, towards a point or (solar) to infinity.
@@ -208,7 +218,7 @@ struct ShadowRays {
 };
 
 /// One of several directions that points draw from their lobes: unit vectors.
-struct LobeWay {
+struct LobeDirection {
   TmConstVec3 L;
   int number = 0, count = 1;
 };
@@ -233,7 +243,8 @@ class ShadeServices {
   /// geometry.
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
-  /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes.
+  /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes. Where
+  /// nothing is met it writes a pdf of 0, and the rest of `out` is not defined.
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                            const EmitterPoints& out) const = 0;
 
@@ -264,7 +275,7 @@ class ShadeServices {
   /// Tells whether indirectAlong() knows an answer: paths find indirect light.
   virtual bool followsLobes() const { return false; }
   /// Gives the radiance that other surfaces send to each point along a unit direction, `way.number` of `way.count`.
-  virtual void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+  virtual void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                              const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const;
 };
 

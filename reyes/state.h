@@ -88,6 +88,19 @@ struct Aperture {
   float density = 0;                   ///< At 1 it is dark in the middle, at -1 at the rim, linearly in between.
 };
 
+/// Options or attributes that shaders may read, by "category:name".
+using UserParams = std::map<std::string, Param>;
+/// Returns the option or attribute of that name; null if there is none.
+inline const Param* findParam(const UserParams& user, const std::string& name) {
+  const auto it = user.find(name);
+  return it == user.end() ? nullptr : &it->second;
+}
+/// Returns its first string; empty if there is none.
+inline std::string wordOf(const UserParams& user, const std::string& name) {
+  const Param* param = findParam(user, name);
+  return param && !param->strings.empty() ? param->strings.front() : "";
+}
+
 struct Quantize {
   float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0;
 };
@@ -100,7 +113,7 @@ struct Options {
   std::array<float, 4> cropWindow{0, 1, 0, 1};       ///< xmin xmax ymin ymax of the frame, from the top left
   ProjectionKind projection = ProjectionKind::Orthographic;
   float fov_degrees = 90;
-  float nearClip = 1e-6f, farClip = 1e30f;  ///< RI_EPSILON, RI_INFINITY
+  float nearClip = 1e-6f, farClip = kRiInfinity;  ///< RI_EPSILON
   float shutterOpen = 0, shutterClose = 0;
   float shutterOffset = 0;   ///< Added to the times of motion blocks as they are read.
   bool sampleMotion = true;  ///< Hider "samplemotion": the camera sees motion.
@@ -131,7 +144,10 @@ struct Options {
   int indirectSamples = 0;           ///< --draft: rays of an irradiance record; 0: as indirect lights ask.
   int frame = 0;
   std::map<std::string, std::string> searchPaths;  ///< "archive", "texture", "shader", "display", ...
-  std::map<std::string, Param> user;               ///< "category:name" of options that shaders may read
+  UserParams user;
+
+  /// Tells whether the shutter is open for some time, and motion wanted. Otherwise nothing is blurred.
+  bool shutterIsOpen() const { return sampleMotion && shutterClose > shutterOpen; }
 };
 
 enum class ShadingInterpolation { Constant, Smooth };
@@ -180,6 +196,8 @@ struct Attributes {
   int areaLight = -1;  ///< Index of the light that this geometry emits for; -1 if there is none.
   float displacementBound = 0;  ///< Radius in the space below.
   std::string displacementBoundSpace = "object";
+  /// Names and types of what the displacement shader computes for surfaces. Vertices have room for it.
+  std::vector<Param> displacementOutputs;
   Visibility visibility;
   struct Trace {
     std::optional<float> bias, offset;
@@ -221,8 +239,8 @@ struct Attributes {
     bool hidden = true, backfacing = true;
     bool operator==(const Cull&) const = default;
   } cull;
-  bool binaryDice = false;            ///< Attribute "dice" "binary": counts are powers of two.
-  std::map<std::string, Param> user;  ///< "category:name" that shaders may read
+  bool binaryDice = false;  ///< Attribute "dice" "binary": counts are powers of two.
+  UserParams user;
 
   bool operator==(const Attributes&) const = default;  ///< Shaders are compared by pointer.
 

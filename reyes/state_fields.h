@@ -137,13 +137,13 @@ void fields(A& a, Attributes& x) {
   auto& [color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
          sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
          displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
-         visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, cull,
-         binaryDice, user] = x;
+         displacementOutputs, visibility, trace, indirect, photon, radiosity, irradianceMaxError,
+         irradianceMaxPixelDist, rasterOrient, cull, binaryDice, user] = x;
   each(a, color, opacity, textureCoordinates, shadingRate, motionFactor, focusFactor, interpolation, matte, volume,
        sides, detail, insideOut, name, membership, diffuseHitMode, specularHitMode, transmissionHitMode, surface,
        displacement, atmosphere, interior, exterior, lights, areaLight, displacementBound, displacementBoundSpace,
-       visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist, rasterOrient, cull,
-       binaryDice, user);
+       displacementOutputs, visibility, trace, indirect, photon, radiosity, irradianceMaxError, irradianceMaxPixelDist,
+       rasterOrient, cull, binaryDice, user);
 }
 
 }  // namespace tomales

@@ -60,8 +60,7 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   std::erase_if(options.user, [](const auto& o) {  // of memory, and the order of work
     return o.first.starts_with("limits:") || o.first.starts_with("bucket:");
   });
-  std::map<std::string, mat4> spaces = scene.worldFromNamed;
-  std::erase_if(spaces, [](const auto& s) { return s.first.starts_with(kSkyOpening); });  // another camera finds others
+  std::map<std::string, mat4> spaces = scene.worldFromNamed;  // no openings: another camera finds others
   each(sum, options.searchPaths, options.user, options.shutterOpen, options.shutterClose, options.maxRayDepth, spaces);
   for (std::shared_ptr<LightCall> light : scene.lights) field(sum, light);
   std::map<std::shared_ptr<const Attributes>, uint64_t> known;

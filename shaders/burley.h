@@ -95,7 +95,7 @@ struct Lobes {
     return nl * material.glossy(nl, nv, rsl::dot(N, H), rsl::dot(L, H));
   }
   /// Returns the probability density of draw() over solid angle.
-  float density(Vec3 L) const {
+  float pdf(Vec3 L) const {
     const Vec3 H = rsl::normalize(L + V);
     const float nh = rsl::dot(N, H), vh = rsl::dot(V, H);
     if (nh <= 0 || vh <= 0 || rsl::dot(N, L) <= 0) return 0;

@@ -87,7 +87,7 @@ class Glossy {
         L_(g_),
         xi0_(g_),
         xi1_(g_),
-        density_(g_),
+        pdf_(g_),
         claimed_(g_),
         cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
@@ -106,11 +106,11 @@ class Glossy {
 
   /// Adds the part of one sample of the lights, weighted by the power heuristic. addLobeSamples() adds the rest.
   void addLightSample(const TmIlluminance& sample, rsl::Vec3Array& sum) {
-    g_->call->lightDensity(g_->host, g_, sample.light, density_.data());
+    g_->call->lightDensity(g_->host, g_, sample.light, pdf_.data());
     for (int i : b_) {
       const Vec3 L = rsl::get(sample.direction, i);
       if (rsl::dot((*this)[i].N, L) <= 0) continue;
-      const float other = density_[i] > 0 ? static_cast<float>(counted_) * (*this)[i].density(L) / density_[i] : 0.0f;
+      const float other = pdf_[i] > 0 ? static_cast<float>(counted_) * (*this)[i].pdf(L) / pdf_[i] : 0.0f;
       sum.set(i, sum[i] + rsl::get(sample.Cl, i) * (*this)[i].value(L) / (1 + other * other));
     }
   }
@@ -124,8 +124,8 @@ class Glossy {
       if (counted_ > 0) addLights(k, ofLights);
       if (!mirrors_) continue;
       for (int i : b_)
-        if (const int mirrored = mirrored_[static_cast<size_t>(i)]; k < mirrored && density_[i] > 0) {
-          const float weight = 1 / (rsl::kPi * density_[i] * static_cast<float>(mirrored));
+        if (const int mirrored = mirrored_[static_cast<size_t>(i)]; k < mirrored && pdf_[i] > 0) {
+          const float weight = 1 / (rsl::kPi * pdf_[i] * static_cast<float>(mirrored));
           seen.add(i, L_[i], weight * (*this)[i].value(L_[i]), xi0_[i], xi1_[i]);
         }
       if ((k + 1) % Reflections::kTogether == 0 || k + 1 == most) seen.trace(ofScene);
@@ -138,15 +138,15 @@ class Glossy {
     g_->call->stratified(g_->host, g_, k, drawn_, xi0_.data(), xi1_.data());
     for (int i : b_) {
       const Vec3 L = (*this)[i].draw(xi0_[i], xi1_[i]);
-      density_[i] = k < numberOf(i) ? (*this)[i].density(L) : 0.0f;
-      L_.set(i, density_[i] > 0 ? L : Vec3{});
+      pdf_[i] = k < numberOf(i) ? (*this)[i].pdf(L) : 0.0f;
+      L_.set(i, pdf_[i] > 0 ? L : Vec3{});
     }
   }
 
   /// Adds the light along direction k, which is weighted as one of counted_ directions.
   void addLights(int k, rsl::Vec3Array& sum) {
     const float counted = static_cast<float>(counted_);
-    for (int i : b_) claimed_[i] = density_[i] * counted / static_cast<float>(drawn_);
+    for (int i : b_) claimed_[i] = pdf_[i] * counted / static_cast<float>(drawn_);
     g_->call->lightAlong(g_->host, g_, L_, claimed_.data(), k, drawn_, cl_);
     for (int i : b_) sum.set(i, sum[i] + counted / static_cast<float>(numberOf(i)) * cl_[i] * (*this)[i].value(L_[i]));
   }
@@ -178,7 +178,7 @@ class Glossy {
   std::vector<int> number_;    ///< How many of the drawn_ directions each point has.
   std::vector<int> mirrored_;  ///< How many of these, the first ones, mirror the scene.
   rsl::Vec3Array L_;
-  rsl::Array xi0_, xi1_, density_, claimed_;
+  rsl::Array xi0_, xi1_, pdf_, claimed_;
   rsl::Vec3Array cl_;
 };
 

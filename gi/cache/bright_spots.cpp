@@ -147,7 +147,7 @@ void SpotAim::settle() {
     coverage_ += t.covered;
     t.upTo = irradiance_;
   }
-  for (Target& t : targets_) t.density = t.share / irradiance_ * t.densityOfPlace();
+  for (Target& t : targets_) t.pdf = t.share / irradiance_ * t.pdfOfPlace();
 }
 
 void SpotAim::dim(const std::vector<float>& shares) {
@@ -166,7 +166,7 @@ vec3 SpotAim::Target::toward(const vec2& xi) const {
   return (1 - drop) * axis + r * std::cos(phi) * tangent + r * std::sin(phi) * bitangent;
 }
 
-float SpotAim::Target::densityOfPlace() const {
+float SpotAim::Target::pdfOfPlace() const {
   return normal == vec3(0) ? 1 / (2 * kPi * versine) : 1 / (4 * glm::length(u) * glm::length(v));
 }
 
@@ -182,19 +182,19 @@ vec3 SpotAim::direction(float choice, const vec2& xi) const {
   return normalizeOr(found->toward(xi), found->axis);
 }
 
-float SpotAim::density(const vec3& direction) const {
+float SpotAim::pdf(const vec3& direction) const {
   float sum = 0;
   for (const Target& t : targets_) {
     if (t.normal == vec3(0)) {
       const vec3 chord = direction - t.axis;  // the difference of the cosines of small angles would have no digits left
-      if (dot(chord, chord) <= (2 + kRounding) * t.versine) sum += t.density;
+      if (dot(chord, chord) <= (2 + kRounding) * t.versine) sum += t.pdf;
       continue;
     }
     const float cosine = -dot(direction, t.normal), distance = -dot(t.path, t.normal) / cosine;
     const vec3 off = distance * direction - t.path;
     const bool inside = std::abs(dot(off, t.u)) <= (1 + kRounding) * dot(t.u, t.u) &&
                         std::abs(dot(off, t.v)) <= (1 + kRounding) * dot(t.v, t.v);
-    if (cosine > 0 && inside) sum += t.density * distance * distance / cosine;
+    if (cosine > 0 && inside) sum += t.pdf * distance * distance / cosine;
   }
   return sum;
 }

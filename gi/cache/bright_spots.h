@@ -68,7 +68,7 @@ class SpotAim {
   /// Returns a unit direction to a spot. choice, xi: uniform in [0,1).
   vec3 direction(float choice, const vec2& xi) const;
   /// Returns the probability density of direction() over solid angle.
-  float density(const vec3& direction) const;
+  float pdf(const vec3& direction) const;
 
  private:
   /// A cone of directions, or a rectangle whose points are chosen evenly. A rectangle seen from the side covers much
@@ -82,10 +82,10 @@ class SpotAim {
     float upTo = 0;        ///< The shares of the targets up to this one, summed; a choice below it takes one of them.
     /// Probability density of choosing the target and the place: over solid angle for a cone, over area for a
     /// rectangle.
-    float density = 0;
+    float pdf = 0;
 
     vec3 toward(const vec2& xi) const;
-    float densityOfPlace() const;
+    float pdfOfPlace() const;
   };
   void settle();
 

@@ -254,7 +254,7 @@ std::vector<LightShare> IrradianceCache::mixed(std::span<const vec3> gains) cons
   return out;
 }
 
-std::span<const LightShare> IrradianceCache::keptMix(std::span<const vec3> gains) const {
+std::span<const LightShare> IrradianceCache::cachedMix(std::span<const vec3> gains) const {
   Impl& impl = *impl_;
   if (impl.mix.size() != impl.records.size() || !std::ranges::equal(impl.gainsOfMix, gains)) {
     impl.mix = mixed(gains);

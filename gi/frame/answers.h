@@ -16,7 +16,7 @@ void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* acti
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                    const ShadeContext&, int bounces, const IndirectResult& out);
 /// Implements ShadeServices::indirectAlong(); likewise.
-void traceAlong(const GiState&, const ShadePoints&, const uint8_t* active, const LobeWay&, const IndirectQuery&,
+void traceAlong(const GiState&, const ShadePoints&, const uint8_t* active, const LobeDirection&, const IndirectQuery&,
                 const ShadeContext&, int bounces, TmVec3 out);
 /// Sets E/pi at points where the atlas does not tell two sides of a wall apart: by a path from each, whose hits look up
 /// what is stored there.

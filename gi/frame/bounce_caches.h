@@ -16,7 +16,7 @@ class BounceCaches {
   struct Run {
     Stats& stats;
     const std::atomic<bool>* cancelled;   ///< May be null.
-    KeptWork* kept;                       ///< May be null.
+    Checkpoint* kept;                     ///< May be null.
     std::span<const std::string> groups;  ///< The groups of lights whose shares are kept.
     bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
   };

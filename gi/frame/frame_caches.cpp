@@ -2,27 +2,28 @@
 
 #include <algorithm>
 
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/frame_survey.h"
 #include "gi/frame/passes.h"
-#include "gi/frame/plans.h"
 
 namespace tomales {
 namespace {
 
 /// Returns what the groups ask for, each with its group.
-std::vector<std::pair<size_t, GatherPlan>> plansOf(const GiState& state) {
-  std::vector<std::pair<size_t, GatherPlan>> plans;
+std::vector<std::pair<size_t, CacheKey>> keysOf(const GiState& state) {
+  std::vector<std::pair<size_t, CacheKey>> keys;
   for (size_t g = 0; g < state.scene.groups.size(); ++g) {
     const int group = static_cast<int>(g);
     const IndirectQuery* query = state.shading.indirectQuery(group);
     const Attributes& attributes = *state.scene.groups[g].attributes;
     if (attributes.matte || attributes.volume) continue;
-    for (const HemisphereQuery& asked : state.hemispheresAsked[g]) plans.emplace_back(g, planFor(state, group, asked));
+    for (const HemisphereQuery& asked : state.hemispheresAsked[g])
+      keys.emplace_back(g, cacheKeyFor(state, group, asked));
     if (!query || !attributes.indirect.receive || !interpolatesIndirect(state)) continue;
-    const GatherPlan plan = planFor(state, group, *query);
-    if (plan.cache.kappa < kInfinity) plans.emplace_back(g, plan);
+    const CacheKey key = cacheKeyFor(state, group, *query);
+    if (key.cache.kappa < kInfinity) keys.emplace_back(g, key);
   }
-  return plans;
+  return keys;
 }
 
 }  // namespace
@@ -30,13 +31,13 @@ std::vector<std::pair<size_t, GatherPlan>> plansOf(const GiState& state) {
 bool FrameCaches::prepare(const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
   ofGroups_.assign(state_.scene.groups.size(), {});
   learnHemisphereQueries(state_, layout, tiles, cancelled);
-  const std::vector<std::pair<size_t, GatherPlan>> plans = plansOf(state_);
-  if (plans.empty()) return false;
+  const std::vector<std::pair<size_t, CacheKey>> keys = keysOf(state_);
+  if (keys.empty()) return false;
   const FrameSurvey survey = surveyOf(layout, tiles, ofGroups_.size(), cancelled);
-  for (const auto& [group, plan] : plans) {
+  for (const auto& [group, key] : keys) {
     size_t c = 0;
-    while (c < state_.caches.size() && !(state_.caches[c].plan == plan)) ++c;
-    if (c == state_.caches.size()) state_.caches.push_back({plan, IrradianceCache(survey.bound, plan.cache)});
+    while (c < state_.caches.size() && !(state_.caches[c].key == key)) ++c;
+    if (c == state_.caches.size()) state_.caches.push_back({key, IrradianceCache(survey.bound, key.cache)});
     ofGroups_[group].push_back(c);
     frames_.resize(state_.caches.size());
     frames_[c] += survey.seenOfGroup[group];

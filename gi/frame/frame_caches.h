@@ -9,7 +9,7 @@ class FrameCaches {
  public:
   explicit FrameCaches(GiState& state) : state_(state) {}
 
-  /// Adds the caches that are missing. Groups whose lights and shaders have equal plans share one. Returns false if
+  /// Adds the caches that are missing. Groups whose lights and shaders have equal keys share one. Returns false if
   /// there is nothing to gather: with maxerror 0 no record could be reused.
   bool prepare(const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
 

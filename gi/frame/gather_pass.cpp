@@ -5,10 +5,10 @@
 #include <unordered_set>
 
 #include "gi/cache/amendments/switches.h"
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/frame_caches.h"
 #include "gi/frame/gather_tile.h"
 #include "gi/frame/passes.h"
-#include "gi/frame/plans.h"
 #include "gi/frame/record_fields.h"
 #include "gi/frame/record_slices.h"
 #include "gi/gather/occluders.h"
@@ -64,8 +64,8 @@ class GatherPass {
   }
 
  private:
-  const GatherSettings& gatherOf(size_t cache) const { return state_.caches[cache].plan.gather; }
-  bool isLight(size_t cache) const { return !gatherOf(cache).covers(); }
+  const GatherSettings& gatherOf(size_t cache) const { return state_.caches[cache].key.gather; }
+  bool isLight(size_t cache) const { return !gatherOf(cache).isOcclusion(); }
   bool isIndirect(size_t cache) const { return !gatherOf(cache).asked; }
   bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
 
@@ -99,15 +99,15 @@ class GatherPass {
     for (const Site& s : sites)
       if (isIndirect(s.cache)) points.push_back(s.point);
     if (bounces == 1 || points.empty()) return;
-    // Every gather point may look the bounce caches up. So their rays are as many and as long as any plan asks for,
+    // Every gather point may look the bounce caches up. So their rays are as many and as long as any cache asks for,
     // whichever pixel comes first.
     size_t first = 0;
     while (!isIndirect(first)) ++first;
-    GatherSettings gather = state_.caches[first].plan.gather;
+    GatherSettings gather = state_.caches[first].key.gather;
     for (const PreparedCache& c : state_.caches) {
-      if (c.plan.gather.asked) continue;
-      gather.samples = std::max(gather.samples, c.plan.gather.samples);
-      gather.maxDistance = std::max(gather.maxDistance, c.plan.gather.maxDistance);
+      if (c.key.gather.asked) continue;
+      gather.samples = std::max(gather.samples, c.key.gather.samples);
+      gather.maxDistance = std::max(gather.maxDistance, c.key.gather.maxDistance);
     }
     const auto start = std::chrono::steady_clock::now();
     const double raysBefore = state_.stats.lightRays();
@@ -167,9 +167,9 @@ class GatherPass {
     for (const Site& s : asked) places.push_back({s.point.position, s.point.normal, s.point.normal, s.point.pixelSize});
     std::vector<IrradianceEstimate> known(places.size());
     state_.caches[cache].cache.lookup(places, known.data());
-    OccluderSearch occluders(*tools_->rays, state_.caches[cache].plan.gather);
+    OccluderSearch occluders(*tools_->rays, state_.caches[cache].key.gather);
     const bool isNew = caches_.isNew(cache);
-    const float enough = state_.caches[cache].plan.cache.enough;
+    const float enough = state_.caches[cache].key.cache.enough;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
       if (k.weight < enough || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
@@ -200,7 +200,7 @@ class GatherPass {
     report(1);
   }
 
-  bool sharesRays(size_t cache) const { return state_.caches[cache].plan.gather.samples >= kManyRays; }
+  bool sharesRays(size_t cache) const { return state_.caches[cache].key.gather.samples >= kManyRays; }
   /// Tells whether the record is from the search for bright spots. It could not aim at them, and is to be replaced.
   bool isPilotRecord(size_t cache) const {
     return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.learnt->spots.spots().empty()));
@@ -235,7 +235,7 @@ class GatherPass {
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
     const KnownLight known =
         isLight(site.cache) ? KnownLight{&state_.learnt->spots, state_.hitRadiance.get()} : KnownLight{};
-    GatherSettings settings = state_.caches[site.cache].plan.gather;
+    GatherSettings settings = state_.caches[site.cache].key.gather;
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be
     // missed for good.

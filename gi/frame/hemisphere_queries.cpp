@@ -1,8 +1,8 @@
 // Answers occlusion() and indirectdiffuse() of shaders from records, as the irradiance cache does. For occlusion()
 // these hold the uncovered share of the hemisphere instead of light.
 #include "gi/frame/answers.h"
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/passes.h"
-#include "gi/frame/plans.h"
 #include "gi/frame/recall.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
@@ -67,7 +67,7 @@ void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileR
   for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksHemispheres(static_cast<int>(g));
   if (!any || !keepsHemispheres(state.settings)) return;
   ShadeContext context;
-  context.rehearsal = true;
+  context.purpose = Purpose::Rehearsal;
   context.indirect = false;
   context.seed = state.settings.seed;
   const std::vector<std::vector<Example>> examples = examplesOf(state, layout, tiles, cancelled);
@@ -79,36 +79,36 @@ void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileR
   });
 }
 
-GatherPlan planFor(const GiState& state, int group, const HemisphereQuery& query) {
-  GatherPlan plan;
+CacheKey cacheKeyFor(const GiState& state, int group, const HemisphereQuery& query) {
+  CacheKey key;
   const float maxError = state.settings.maxError > 0 ? state.settings.maxError : query.maxVariation / kVariationOfError;
-  plan.cache = query.radiance ? cacheSettings(ErrorFunction::Hessian, maxError)
-                              : CacheSettings{.errorFunction = ErrorFunction::Hessian};
-  plan.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(
+  key.cache = query.radiance ? cacheSettings(ErrorFunction::Hessian, maxError)
+                             : CacheSettings{.errorFunction = ErrorFunction::Hessian};
+  key.cache.maxPixels = state.scene.groups[static_cast<size_t>(group)].attributes->irradianceMaxPixelDist.value_or(
       infoOf(ErrorFunction::Hessian).maxPixels);
-  plan.gather.curvature = true;
-  if (query.radiance) plan.gather.maxError = maxError;
-  plan.gather.samples = std::max(query.samples, kLeastOfRecord);
-  plan.gather.maxDistance = query.maxDistance;
-  plan.gather.seed = state.settings.seed;
-  plan.gather.asked = query;
-  return plan;
+  key.gather.curvature = true;
+  if (query.radiance) key.gather.maxError = maxError;
+  key.gather.samples = std::max(query.samples, kLeastOfRecord);
+  key.gather.maxDistance = query.maxDistance;
+  key.gather.seed = state.settings.seed;
+  key.gather.asked = query;
+  return key;
 }
 
 bool interpolateHemisphere(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                            const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) {
   if (!keepsHemispheres(state.settings)) return false;
-  if (context.rehearsal) {
+  if (context.purpose == Purpose::Rehearsal) {
     auto& asked = state.hemispheresAsked[static_cast<size_t>(points.group())];
     if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);
     return true;
   }
   // Records without shares do not know whose light they hold.
   if (query.radiance && context.lights && state.groups.empty()) return false;
-  GatherPlan plan = planFor(state, points.group(), query);
-  const auto prepared = preparedFor(state, plan);
+  CacheKey key = cacheKeyFor(state, points.group(), query);
+  const auto prepared = preparedFor(state, key);
   if (prepared == state.caches.end()) return false;
-  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("alon"));
+  if (context.redrawn) key.gather.seed = hashCombine(key.gather.seed, randomStream("alon"));
   const GatherPlaces places(state, points);
   const BatchLookup found = lookUp(state, &*prepared, places, points, active, N, context);
   for (size_t k = 0; k < found.points.size(); ++k) {
@@ -117,7 +117,7 @@ bool interpolateHemisphere(const GiState& state, const ShadePoints& points, cons
     if (!(found.known[k].weight > 0)) {
       GatherPoint point = places.at(i);
       point.normal = found.at[k].shadingNormal;
-      E = gatherOrRecall(state, point, plan.gather, context.answers).E;
+      E = gatherOrRecall(state, point, key.gather, context.answers).E;
     }
     set(out, i, query.radiance ? glm::max(E, vec3(0)) : glm::clamp(1.0f - E, 0.0f, 1.0f));
   }

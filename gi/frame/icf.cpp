@@ -18,7 +18,7 @@ void fields(A& a, HemisphereQuery& x) {
 }
 
 template <class A>
-void fields(A& a, GatherPlan& x) {
+void fields(A& a, CacheKey& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
   auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, asked] = gather;
@@ -52,8 +52,8 @@ void fields(A& a, GiSettings& x) {
 
 template <class A>
 void fields(A& a, ShadowQuestion& x) {
-  auto& [chunk, light, sample] = x;
-  each(a, chunk, light, sample);
+  auto& [subBatch, light, sample] = x;
+  each(a, subBatch, light, sample);
 }
 
 template <class A>
@@ -92,7 +92,7 @@ constexpr uint32_t kAnswerRecords = 2;
 
 /// A cache as it is stored: the octree is built again from the records.
 struct StoredCache {
-  GatherPlan plan;
+  CacheKey key;
   Bound3 bound;
   std::vector<IrradianceRecord> records;
   std::vector<uint64_t> frames;
@@ -123,7 +123,7 @@ void fields(A& a, StoredLearnt& x) {
 
 template <class A>
 void fields(A& a, StoredCache& x) {
-  each(a, x.plan, x.bound.lo, x.bound.hi, x.records, x.frames);
+  each(a, x.key, x.bound.lo, x.bound.hi, x.records, x.frames);
 }
 
 template <class A>
@@ -184,7 +184,7 @@ bool IcfWriter::finish(const IrradianceShot& shot) {
   for (const auto& light : shot.emitters.value_or(EmitterTable{}))
     if (std::any_of(light.lattices.begin(), light.lattices.end(), asksSurface)) stored.emitters.reset();
   for (const PreparedCache& c : shot.caches)
-    stored.caches.push_back({c.plan, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}, c.frames});
+    stored.caches.push_back({c.key, c.cache.bound(), {c.cache.records().begin(), c.cache.records().end()}, c.frames});
   return records_->write(kShotRecord, pack(stored)) && records_->finish();
 }
 
@@ -209,7 +209,7 @@ std::unique_ptr<IcfFile> IcfFile::open(const std::string& path, std::string& err
                  restored(std::move(stored.learnt))};
   for (const StoredCache& c : stored.caches) {
     IrradianceCache& cache =
-        file->shot_.caches.emplace_back(PreparedCache{c.plan, {c.bound, c.plan.cache}, c.frames}).cache;
+        file->shot_.caches.emplace_back(PreparedCache{c.key, {c.bound, c.key.cache}, c.frames}).cache;
     for (const IrradianceRecord& record : c.records) cache.restore(record);
   }
   return file;
@@ -242,8 +242,13 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   const float scale = lengthScale(worldFromCamera);
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
-      const float data[] = {
-          1, r.E.x, r.E.y, r.E.z, std::min(scale * r.closest, 1e30f), std::min(scale * r.harmonicMean, 1e30f), r.noise};
+      const float data[] = {1,
+                            r.E.x,
+                            r.E.y,
+                            r.E.z,
+                            std::min(scale * r.closest, kRiInfinity),
+                            std::min(scale * r.harmonicMean, kRiInfinity),
+                            r.noise};
       out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
     }
   return out;

@@ -48,7 +48,7 @@ void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld) {
   const mat4 m = cameraFromWorld * glm::inverse(shot.cameraFromWorld);
   const RecordMove move(m);
   for (PreparedCache& prepared : shot.caches) {
-    IrradianceCache moved(transformBound(m, prepared.cache.bound()), prepared.plan.cache);
+    IrradianceCache moved(transformBound(m, prepared.cache.bound()), prepared.key.cache);
     for (IrradianceRecord r : prepared.cache.records()) {
       move.apply(r);
       moved.restore(r);

@@ -1,6 +1,6 @@
 // indirectDiffuse() from the irradiance cache, and its substitutes where the cache has nothing.
 #include "gi/frame/answers.h"
-#include "gi/frame/plans.h"
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/recall.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
@@ -15,10 +15,10 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 
 void interpolateIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                          const IndirectQuery& query, const ShadeContext& context, const IndirectResult& out) {
-  GatherPlan plan = planFor(state, points.group(), query);
-  const auto prepared = preparedFor(state, plan);
-  plan.gather.samples = shareOfBranch(plan.gather.samples, kLeastOfHemisphere, context);
-  if (context.redrawn) plan.gather.seed = hashCombine(plan.gather.seed, randomStream("alon"));
+  CacheKey key = cacheKeyFor(state, points.group(), query);
+  const auto prepared = preparedFor(state, key);
+  key.gather.samples = shareOfBranch(key.gather.samples, kLeastOfHemisphere, context);
+  if (context.redrawn) key.gather.seed = hashCombine(key.gather.seed, randomStream("alon"));
   const GatherPlaces places(state, points);
   const bool isKnown = prepared != state.caches.end(),
              keeps = isKnown && context.answers && context.answers->recordsStay && !context.redrawn;
@@ -37,7 +37,7 @@ void interpolateIndirect(const GiState& state, const ShadePoints& points, const 
     // shading.
     GatherPoint point = places.at(i);
     point.normal = n;
-    const IndirectAnswer answer = gatherOrRecall(state, point, plan.gather, context.answers);
+    const IndirectAnswer answer = gatherOrRecall(state, point, key.gather, context.answers);
     store(out, i, answer.E + caustic, answer.dominant.data());
   }
 }

@@ -3,7 +3,7 @@
 #include "gi/frame/answers.h"
 #include "gi/frame/gather_places.h"
 #include "gi/frame/passes.h"
-#include "gi/photons/stream.h"
+#include "gi/photons/sources.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
@@ -59,14 +59,14 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
     index_[nameOf(points_[i])] = static_cast<uint32_t>(i);
     settings.mostBounces = std::max(settings.mostBounces, points_[i].bounces);
   }
-  const PhotonStream stream(*tools.rays, *tools.shading, settings, *passes.log);
-  auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), stream.power());
+  const PhotonSources sources(*tools.rays, *tools.shading, settings, *passes.log);
+  auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power());
   double scale = passes.shrinks ? kFirstScale : 1;
   int64_t sent = 0;
-  for (int64_t pass = 1; sent < passes.photons && stream.power() > 0 && measurement->size() > 0; ++pass) {
+  for (int64_t pass = 1; sent < passes.photons && sources.power() > 0 && measurement->size() > 0; ++pass) {
     measurement->beginPass(static_cast<float>(scale));
-    sent += stream.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(pass)),
-                        [&](std::span<const StoredPhoton> photons) { measurement->count(photons); });
+    sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(pass)),
+                         [&](std::span<const StoredPhoton> photons) { measurement->count(photons); });
     if (passes.shrinks) scale *= std::sqrt((static_cast<double>(pass) + kAlpha) / (static_cast<double>(pass) + 1));
     if (progress) progress(std::min(1.0f, static_cast<float>(sent) / static_cast<float>(passes.photons)));
     if (isTimeToAsk(pass) && measurement->noise() >= 0 && measurement->noise() < passes.noise) break;
@@ -90,7 +90,7 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
   ShadeContext context;
   context.seed = state.settings.seed;
   context.direct = false;
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
     if (!tile) return;

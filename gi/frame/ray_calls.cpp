@@ -134,7 +134,7 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
   hit.highlights = byPaths ? HitHighlights::All : HitHighlights::None;
   hit.kind = query.kind;
   hit.label = query.label;
-  hit.lampsGlow = query.lampsGlow && context.mirrorsLamps(points.group());
+  hit.seesAreaLights = query.seesAreaLights && context.seesLightsInMirrors(points.group());
   hit.importance *= query.importance;
   hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
@@ -146,7 +146,8 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
     ++hit.specularDepth;
     hit.branches = std::min(hit.branches * query.count, kMostBranches);
   }
-  if (context.rehearsal || context.kind == RayKind::Transmission || isTooDeep(hit, state.scene.options))
+  if (context.purpose == Purpose::Rehearsal || context.kind == RayKind::Transmission ||
+      isTooDeep(hit, state.scene.options))
     return std::nullopt;
   return hit;
 }

@@ -18,7 +18,7 @@ void startRay(const RayScene& rays, const ShadePoints& points, int i, float time
   const vec3 end = ray.origin + ray.tMax * ray.direction;
   ray.time = time;
   if (time > 0 && !points.inAir()) ray.origin = rays.placeAt(points.group(), ray.origin, points.get3(kDriftX, i), time);
-  if (time > 0 && ray.tMax < 1e30f) {
+  if (time > 0 && ray.tMax < kRiInfinity) {
     ray.tMax = glm::length(end - ray.origin);
     ray.direction = normalizeOr(end - ray.origin, ray.direction);
   }

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "gi/frame/plans.h"
+#include "gi/frame/cache_keys.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 
@@ -42,8 +42,8 @@ std::span<const LightShare> mixedLight(const GiState& state, size_t cache) {
   if (!state.mixed) return {};
   std::call_once(state.mixed->once, [&] {
     for (const PreparedCache& c : state.caches)
-      state.mixed->ofCaches.push_back(c.plan.gather.covers() ? std::span<const LightShare>()
-                                                             : c.cache.keptMix(state.gains));
+      state.mixed->ofCaches.push_back(c.key.gather.isOcclusion() ? std::span<const LightShare>()
+                                                                 : c.cache.cachedMix(state.gains));
   });
   return state.mixed->ofCaches[cache];
 }
@@ -69,7 +69,7 @@ std::vector<LightShare> redrawn(const IrradianceCache& cache, std::span<const Li
 std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) {
   const IndirectQuery* query = state.shading.indirectQuery(at.group);
   if (!query) return std::nullopt;
-  const auto prepared = preparedFor(state, planFor(state, at.group, *query));
+  const auto prepared = preparedFor(state, cacheKeyFor(state, at.group, *query));
   if (prepared == state.caches.end()) return std::nullopt;
   const IrradiancePlace place{at.position, at.normal, at.normal, at.pixelSize};
   IrradianceEstimate estimate;

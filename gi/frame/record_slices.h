@@ -1,12 +1,12 @@
 // Private to gi: makes records at many points in parallel, slice by slice, and takes over the slices that an
-// interrupted run has made (KeptWork). All slices of a frame have the same order in every run, so their number names
+// interrupted run has made (Checkpoint). All slices of a frame have the same order in every run, so their number names
 // them.
 #pragma once
 #include <functional>
 #include <vector>
 
 #include "gi/gather.h"
-#include "reyes/base/kept_work.h"
+#include "reyes/base/checkpoint.h"
 
 namespace tomales {
 
@@ -26,13 +26,13 @@ struct RecordMaking {
 class RecordSlices {
  public:
   /// kept: may be null.
-  RecordSlices(KeptWork* kept, KeptKind kind) : kept_(kept), kind_(kind) {}
+  RecordSlices(Checkpoint* kept, KeptKind kind) : kept_(kept), kind_(kind) {}
   /// Makes a record at every point, in the order of the points. Returns how many of the first records are there: fewer
   /// than there are points if it was cancelled.
   size_t make(const std::vector<GatherPoint>& points, const RecordMaking& making, RecordSlice& out);
 
  private:
-  KeptWork* kept_;
+  Checkpoint* kept_;
   KeptKind kind_;
   size_t made_ = 0;  ///< Slices so far.
 };

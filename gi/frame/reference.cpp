@@ -1,8 +1,8 @@
 // Indirect light by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths from
 // hits where the atlas cannot tell.
 #include "gi/frame/answers.h"
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/gather_places.h"
-#include "gi/frame/plans.h"
 #include "gi/frame/ray_start.h"
 #include "gi/gather/layers.h"
 #include "gi/gather/polygon_start.h"
@@ -62,7 +62,7 @@ class PathBatches {
   }
 
   /// Adds one path that begins along a direction of the point's lobe.
-  void addAlong(PathSum& sum, const LobeWay& way) {
+  void addAlong(PathSum& sum, const LobeDirection& way) {
     const int i = sum.point;
     const vec3 normal = points_.facingNormal(i), direction{way.L.x[i], way.L.y[i], way.L.z[i]};
     const SampleName name = points_.name(i);
@@ -155,7 +155,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int paths = context.depth > 0 ? 1
                     : context.auditPaths > 0
                         ? context.auditPaths
-                        : shareOfBranch(planFor(state, points.group(), query).gather.samples, 1, context);
+                        : shareOfBranch(cacheKeyFor(state, points.group(), query).gather.samples, 1, context);
   PathBatches batches(state, *tools, points, N, query, contextOfPaths(state, context, bounces));
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)
@@ -168,7 +168,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   }
 }
 
-void traceAlong(const GiState& state, const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+void traceAlong(const GiState& state, const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                 const IndirectQuery& query, const ShadeContext& context, int bounces, TmVec3 out) {
   const RayTools* tools = state.rays();
   if (!tools) return;

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "gi/frame/answers.h"
+#include "gi/frame/cache_keys.h"
 #include "gi/frame/passes.h"
-#include "gi/frame/plans.h"
 #include "gi/frame/ray_calls.h"
 #include "gi/frame/ray_start.h"
 #include "gi/frame/record_lookup.h"
@@ -78,7 +78,7 @@ void GiServices::tellBouncesLeft(Log& log) const {
   if (left.share > 0) tomales::tellBouncesLeft(left, true, "gather-bounces", impl_->scene.where, log);
 }
 
-void GiServices::keepWork(KeptWork* kept) { impl_->kept = kept; }
+void GiServices::useCheckpoint(Checkpoint* kept) { impl_->kept = kept; }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
                       const MapNames& names, uint64_t world) const {
@@ -113,7 +113,7 @@ void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(st
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
-  const RayTools* tools = context.rehearsal ? nullptr : impl_->rays();
+  const RayTools* tools = context.purpose == Purpose::Rehearsal ? nullptr : impl_->rays();
   if (!tools) return;
   const RayScene& scene = *tools->rays;
   const ShadeGroup& group = impl_->scene.groups[static_cast<size_t>(points.group())];
@@ -203,7 +203,7 @@ bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const flo
 void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                              const EmitterPoints& out) const {
   if (const Emitters* emitters = impl_->knownEmitters()) return emitters->meet(light, count, from, direction, out);
-  std::fill_n(out.density, count, 0.0f);
+  std::fill_n(out.pdf, count, 0.0f);
 }
 
 void GiServices::setAtlas(std::unique_ptr<const IrradianceAtlas> atlas) { impl_->atlas = std::move(atlas); }
@@ -281,11 +281,11 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
 
 bool GiServices::followsLobes() const { return impl_->settings.mode == GiMode::Reference; }
 
-void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay& way,
+void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                                const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const {
   ShadeServices::indirectAlong(points, active, way, query, context, out);
   const int bounces = bouncesFor(*impl_, query);
-  if (context.depth < bounces && !context.rehearsal)
+  if (context.depth < bounces && context.purpose != Purpose::Rehearsal)
     traceAlong(*impl_, points, active, way, query, context, bounces, out);
 }
 

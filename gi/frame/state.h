@@ -11,7 +11,7 @@ namespace tomales {
 /// The light of caches under the gains of groups, made when it is first asked for.
 struct MixedLight {
   std::once_flag once;
-  std::vector<std::span<const LightShare>> ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::keptMix).
+  std::vector<std::span<const LightShare>> ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::cachedMix).
 };
 
 struct GiState {
@@ -27,7 +27,7 @@ struct GiState {
   std::shared_ptr<LearntLight> learnt = std::make_shared<LearntLight>();  ///< Written by fillCaches().
   /// Queries of each group; written by learnHemisphereQueries() alone.
   mutable std::vector<std::vector<HemisphereQuery>> hemispheresAsked{};
-  KeptWork* kept = nullptr;                                  ///< Null if nothing is kept for a later run.
+  Checkpoint* kept = nullptr;                                ///< Null if nothing is kept for a later run.
   bool cachesGiven = false;                                  ///< The caches were not gathered for this very frame.
   std::optional<PixelRect> anew{};                           ///< Pixels whose given records have been taken out.
   AtlasSource atlasSource{};                                 ///< May be empty.

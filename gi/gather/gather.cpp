@@ -220,7 +220,7 @@ class Hemisphere {
     float rays = static_cast<float>(scratch_.raysOfCell[static_cast<size_t>(cell)]);
     if (aims_ > 0) {
       const float cosine = std::max(dot(direction, point_.normal), 1e-6f);
-      rays += static_cast<float>(aims_) * aim_.density(direction) * kPi / (cosine * static_cast<float>(count_));
+      rays += static_cast<float>(aims_) * aim_.pdf(direction) * kPi / (cosine * static_cast<float>(count_));
     }
     return 1 / rays;
   }
@@ -271,7 +271,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   IrradianceRecord record = summarize(samples);
   record.position = point.position;
   record.pixelSize = point.pixelSize;
-  if (!settings.covers() && isOn(Amendment::Occluders))
+  if (!settings.isOcclusion() && isOn(Amendment::Occluders))
     record.limit = radiusUnderOccluder(samples, point.pixelSize, hemisphere.upright());
   for (const std::vector<vec3>& seen : hemisphere.shares()) {
     HemisphereSamples share = samples;
@@ -285,7 +285,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
     record.hessian[1] = curvature.xy;
     record.hessian[2] = curvature.yy;
     // Light changes faster near an occluder, so the curvature at the record holds for half of the distance at best.
-    if (settings.covers())
+    if (settings.isOcclusion())
       record.smoothRadius = std::min(variationRadius(curvature, settings.asked->maxVariation), 0.5f * record.closest);
     else
       record.smoothRadius = 1 / (1 / radiusByHessian(curvature, record, settings.maxError) + 1 / record.closest);

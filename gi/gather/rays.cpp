@@ -74,14 +74,14 @@ vec3 GatherRays::add(int element, int cell, const vec3& local, size_t raysOfHemi
 }
 
 void GatherRays::see(Stats& stats, size_t elements, SeenLight& seen, FirstHits* first) {
-  seen.all.assign(elements, vec3(settings_.covers() ? 1 : 0));
+  seen.all.assign(elements, vec3(settings_.isOcclusion() ? 1 : 0));
   seen.shares.resize(groups_.size());
   for (std::vector<vec3>& share : seen.shares) share.assign(elements, vec3(0));
   if (first) {
     first->distances.assign(elements, kInfinity);
     first->normals.resize(elements);
   }
-  if (settings_.covers())
+  if (settings_.isOcclusion())
     uncover(stats, seen.all, first);
   else
     shade(stats, seen, first);

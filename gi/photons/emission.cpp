@@ -191,7 +191,7 @@ void LightPhotons::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
   const LightProbe place = isDrawn_ ? askedFromMiddle(b) : LightProbe();
   LightProbe probe;
   probe.xi = b;
-  std::vector<double> density;
+  std::vector<double> pdf;
   for (size_t i = 0; i < out.size(); ++i) {
     double x{a[i].x};
     const size_t cell = cells_.pick(x);
@@ -200,11 +200,11 @@ void LightPhotons::emitFromPoint(const std::vector<vec2>& a, const std::vector<v
     Ray& ray = out[i].ray;
     ray = {cone_.place(local, cone_.start()) + offset, cone_.direction(local)};
     ray.bias = kPointBias * (radius_ + glm::length(ray.origin));
-    density.push_back(cells_.weight(cell) / (cells_.total() * cone_.cellSolidAngle()));
+    pdf.push_back(cells_.weight(cell) / (cells_.total() * cone_.cellSolidAngle()));
     askAlong(local, offset, probe);
   }
   shading_.probe(light_, probe);
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(density[i]);
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = intensity(probe, i) * kPi / static_cast<float>(pdf[i]);
 }
 
 void LightPhotons::emitFromDistance(const std::vector<vec2>& a, const std::vector<vec2>& b,

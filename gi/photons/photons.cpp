@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "gi/gather/bounces_left.h"
-#include "gi/photons/stream.h"
+#include "gi/photons/sources.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -52,25 +52,25 @@ bool focusesPhotons(const Attributes& attributes) {
 PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
                            const PhotonSettings& given, const std::function<void(std::span<const StoredPhoton>)>& store,
                            const std::function<void(float)>& progress, Stats& stats, Log& log, WorkPart part) {
-  const PhotonStream stream(rays, shading, given, log);
-  const PhotonSettings& settings = stream.settings();
+  const PhotonSources sources(rays, shading, given, log);
+  const PhotonSettings& settings = sources.settings();
   PhotonFigures figures;
   const int arrivals = std::min(settings.mostBounces + 1, settings.maxDepth);
   const bool isAsked = given.maxDepth > 0 || arrivals < settings.maxDepth;
   Series series(arrivals);
   std::vector<std::vector<StoredPhoton>> stored;
-  const size_t photonsPerWave = PhotonStream::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
-  const std::vector<PhotonStream::Span> spans = stream.spansOf(part);
+  const size_t photonsPerWave = PhotonSources::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
+  const std::vector<PhotonSources::Span> spans = sources.spansOf(part);
   const auto all = std::accumulate(spans.begin(), spans.end(), size_t{0},
-                                   [](size_t sum, const PhotonStream::Span& s) { return sum + s.end - s.first; });
+                                   [](size_t sum, const PhotonSources::Span& s) { return sum + s.end - s.first; });
   double power = 0;
   for (const auto& [from, first, last] : spans) {
-    const PhotonStream::Sent& sent = *from;
+    const PhotonSources::Sent& sent = *from;
     for (size_t wave = first; wave < last; wave += photonsPerWave) {
       const size_t end = std::min(last, wave + photonsPerWave);
-      stored.assign((end - wave + PhotonStream::kPhotonsPerTask - 1) / PhotonStream::kPhotonsPerTask, {});
-      stream.trace(sent, settings.seed, wave, end,
-                   [&](size_t task, std::vector<StoredPhoton>&& photons) { stored[task] = std::move(photons); });
+      stored.assign((end - wave + PhotonSources::kPhotonsPerTask - 1) / PhotonSources::kPhotonsPerTask, {});
+      sources.trace(sent, settings.seed, wave, end,
+                    [&](size_t task, std::vector<StoredPhoton>&& photons) { stored[task] = std::move(photons); });
       for (const auto& photons : stored) {
         store(photons);
         series.add(photons);

@@ -92,7 +92,7 @@ vec3 SkyCells::sample(vec2 xi, Cell& cell) const {
   return direction(top + y * (bottom - top), phiAt(static_cast<double>(cell.column) + x));
 }
 
-float SkyCells::density(const Cell& cell) const {
+float SkyCells::pdf(const Cell& cell) const {
   return static_cast<float>(row_[cell.row].weight(cell.column) / (rows_.total() * solidAngle(cell.row)));
 }
 
@@ -127,7 +127,7 @@ vec3 SkyPhotons::onPortal(const vec3& toSky, vec2 xi) const {
 }
 
 /// Returns the density of onPortal() over area across the direction, summed over all portals on the line through P.
-float SkyPhotons::portalDensity(const vec3& P, const vec3& toSky) const {
+float SkyPhotons::portalPdf(const vec3& P, const vec3& toSky) const {
   float met = 0, sum = 0;
   for (const Opening& p : portals_) {
     const float along = dot(p.normal, toSky), part = p.across(toSky);
@@ -152,20 +152,20 @@ vec3 SkyPhotons::onDisk(const vec3& toSky, const vec2& xi) const {
 /// 1997), over direction and the area across it.
 void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
   LightProbe probe;
-  std::vector<float> density;
+  std::vector<float> pdf;
   for (size_t i = 0; i < out.size(); ++i) {
     const bool through = a[i].x < share_;
     const vec2 xi(through ? a[i].x / share_ : (a[i].x - share_) / (1 - share_), a[i].y);
     SkyCells::Cell cell;
     const vec3 toSky = (through ? through_ : open_).sample(xi, cell);
     const vec3 P = through ? onPortal(toSky, b[i]) : onDisk(toSky, b[i]);
-    const float open = (1 - share_) * open_.density(cell) / (kPi * radius_ * radius_);
-    density.push_back(share_ > 0 ? share_ * through_.density(cell) * portalDensity(P, toSky) + open : open);
+    const float open = (1 - share_) * open_.pdf(cell) / (kPi * radius_ * radius_);
+    pdf.push_back(share_ > 0 ? share_ * through_.pdf(cell) * portalPdf(P, toSky) + open : open);
     out[i].ray = {P + (dot(center_ - P, toSky) + kOutside * radius_) * toSky, -toSky};
     probe.N.push_back(toSky);
   }
   ask(light_, shading_, probe);
-  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] / density[i];
+  for (size_t i = 0; i < out.size(); ++i) out[i].power = probe.Cl[i] / pdf[i];
 }
 
 }  // namespace tomales

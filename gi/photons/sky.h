@@ -22,7 +22,7 @@ class SkyCells {
   /// Returns the integral of radiance times share over all directions.
   double integral() const { return integral_; }
   vec3 sample(vec2 xi, Cell& cell) const;
-  float density(const Cell& cell) const;  ///< Density of sample() over solid angle.
+  float pdf(const Cell& cell) const;  ///< Density of sample() over solid angle.
 
  private:
   Distribution rows_;
@@ -48,7 +48,7 @@ class SkyPhotons {
   };
   float across(const vec3& toSky) const;
   vec3 onPortal(const vec3& toSky, vec2 xi) const;
-  float portalDensity(const vec3& P, const vec3& toSky) const;
+  float portalPdf(const vec3& P, const vec3& toSky) const;
   vec3 onDisk(const vec3& toSky, const vec2& xi) const;
 
   const int light_;

@@ -1,6 +1,6 @@
 #include "gi/photons/surfaces.h"
 
-#include "gi/photons/glow.h"
+#include "gi/photons/emissive_photons.h"
 
 namespace tomales {
 namespace {
@@ -45,7 +45,7 @@ std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& 
   lit.mode = HitMode::Shader;
   rays_.shadeHits(rays, hits, names, shading_, context, lit);
   const auto emits = [&](const Hit& h) {
-    return shading_.emits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
+    return shading_.surfaceEmits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
   };
   if (std::any_of(hits.begin(), hits.end(), emits)) {
     const std::vector<vec3> dark = emittedRadiance(rays_, shading_, rays, hits, names, seed_);

@@ -50,7 +50,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
   }
   while (!scratch.flying.empty()) {
     throwIfStopped();
-    step(paths, stream, scratch, out);
+    advance(paths, stream, scratch, out);
   }
 }
 
@@ -60,7 +60,8 @@ float PhotonTracer::timeOf(uint32_t number, uint32_t stream) const {
 }
 
 /// Moves every path to its next surface; paths that end there are removed from `flying`.
-void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const {
+void PhotonTracer::advance(std::vector<Path>& paths, uint32_t stream, Scratch& s,
+                           std::vector<StoredPhoton>& out) const {
   fly(paths, s);
   crossMedia(paths, stream, s, out);
   if (rays_.hasVolumes())
@@ -71,8 +72,8 @@ void PhotonTracer::step(std::vector<Path>& paths, uint32_t stream, Scratch& s, s
   size_t kept = 0;
   for (size_t k = 0; k < s.flying.size(); ++k) {
     Path& path = paths[s.flying[k]];
-    if (s.scattered[k] ||
-        (s.hits[k].object >= 0 && meets(path, s.hits[k], *s.answers[k], {s.direction[k], s.survival[k]}, stream, out)))
+    if (s.scattered[k] || (s.hits[k].object >= 0 &&
+                           interact(path, s.hits[k], *s.answers[k], {s.direction[k], s.survival[k]}, stream, out)))
       s.flying[kept++] = s.flying[k];
   }
   s.flying.resize(kept);
@@ -123,7 +124,7 @@ void PhotonTracer::draw(const std::vector<Path>& paths, uint32_t stream, Scratch
   for (size_t k = 0; k < count; ++k) {
     const Path& path = paths[s.flying[k]];
     s.number[k] = path.number;
-    s.name[k] = nameOf(path, stream);
+    s.name[k] = keyOf(path, stream);
   }
   sobol2(s.number, s.name, s.xi);
   cosineHemispheres(s.xi, s.direction);
@@ -142,17 +143,17 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
     const Medium& medium = dot(path.ray.direction, hit.geometricNormal) > 0 ? media.inside : media.outside;
     const float majorant = medium.majorant(path.power);
     if (!(majorant > 0)) continue;
-    const uint32_t name = hashCombine(nameOf(path, stream), randomStream("medi"), path.collisions);
+    const uint32_t name = hashCombine(keyOf(path, stream), randomStream("medi"), path.collisions);
     const float flight = -std::log(1 - sobol1(path.number, name)) / majorant;
     if (!(flight < hit.t)) continue;
-    s.scattered[k] = collides(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
+    s.scattered[k] = collideWith(path, medium, landsOn(path, groupOf(hit)), flight, name, out);
     hit.object = -1;
   }
 }
 
 /// Returns false where the path ends.
-bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
-                            std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::collideWith(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                               std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
   if (isLit)
     out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, path.bounces,
@@ -167,7 +168,7 @@ bool PhotonTracer::collides(Path& path, const Medium& medium, bool isLit, float 
     path.ray.bias = std::max(0.0f, path.ray.bias - flight);
     return true;
   }
-  if (!isLit || ++path.depth >= settings_.maxDepth || !scatters(path)) return false;
+  if (!isLit || ++path.depth >= settings_.maxDepth || !countScattering(path)) return false;
   const float time = path.ray.time;
   path.ray = {P, directionOnSphere(sobol2(path.number, hashCombine(name, 2u)))};
   path.ray.time = time;
@@ -195,8 +196,8 @@ void PhotonTracer::ask(const std::vector<Path>& paths, uint32_t stream, Scratch&
   for (size_t i = 0; i < which.size(); ++i) s.answers[which[i]] = &s.found[i];
 }
 
-uint32_t PhotonTracer::nameOf(const Path& path, uint32_t stream) {
-  return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.passes << 16);
+uint32_t PhotonTracer::keyOf(const Path& path, uint32_t stream) {
+  return hashCombine(stream, static_cast<uint32_t>(path.depth) | path.surfacesPassed << 16);
 }
 
 }  // namespace tomales

@@ -28,9 +28,9 @@ class PhotonTracer {
     uint32_t number;
     int light;
     int depth = 0;
-    uint32_t passes = 0;      ///< Surfaces that it has passed as if they were not there.
-    uint32_t collisions = 0;  ///< Collisions with media.
-    int bounces = 0;          ///< The same as StoredPhoton::bounces, and the next:
+    uint32_t surfacesPassed = 0;  ///< Surfaces that it has passed as if they were not there.
+    uint32_t collisions = 0;      ///< Collisions with media.
+    int bounces = 0;              ///< The same as StoredPhoton::bounces, and the next:
     bool focused = false;
     bool specular = true;  ///< It has met no diffuse surface so far.
     vec3 lift{0.0f};       ///< Offset from the origin to just before the polygon that it leaves.
@@ -55,25 +55,25 @@ class PhotonTracer {
     Medium inside, outside;
   };
 
-  void step(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
+  void advance(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
   void fly(std::vector<Path>& paths, Scratch& s) const;
   Hit firstHit(Path& path) const;
   static vec3 liftOf(const Ray& ray, const vec3& normal);
   void draw(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
   void crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch& s, std::vector<StoredPhoton>& out) const;
-  bool collides(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
-                std::vector<StoredPhoton>& out) const;
+  bool collideWith(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
+                   std::vector<StoredPhoton>& out) const;
   void ask(const std::vector<Path>& paths, uint32_t stream, Scratch& s) const;
   bool landsOn(const Path& path, int group) const;
-  bool meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
-             std::vector<StoredPhoton>& out) const;
-  bool passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const;
-  bool isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const;
-  bool isMirrored(Path& path, const Hit& hit, float survival, float xi) const;
+  bool interact(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+                std::vector<StoredPhoton>& out) const;
+  bool passThrough(Path& path, const Hit& hit, const vec3& transmitted, float xi) const;
+  bool scatter(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const;
+  bool reflectOrRefract(Path& path, const Hit& hit, float survival, float xi) const;
   void leave(Path& path, const Hit& hit, const vec3& direction) const;
-  bool scatters(Path& path) const;
-  static bool survives(Path& path, const vec3& left, float xi);
-  static uint32_t nameOf(const Path& path, uint32_t stream);
+  bool countScattering(Path& path) const;
+  static bool survive(Path& path, const vec3& left, float xi);
+  static uint32_t keyOf(const Path& path, uint32_t stream);
   float timeOf(uint32_t number, uint32_t stream) const;
   int groupOf(const Hit& hit) const { return groups_[static_cast<size_t>(hit.object)]; }
 

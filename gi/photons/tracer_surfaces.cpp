@@ -9,7 +9,7 @@ namespace {
 /// The spread of one of about a hundred gather rays. Irradiance is estimated over a wider area than that.
 constexpr float kDiffuseSpread = 0.1f;
 /// Limit for one path: layers of leaves and smoke end somewhere, faults of geometry may not.
-constexpr uint32_t kMostPasses = 1000;
+constexpr uint32_t kMostSurfacesPassed = 1000;
 
 /// Reflection or refraction at a smooth dielectric.
 vec3 dielectric(const vec3& d, const vec3& towards, bool entering, float index, float xi) {
@@ -31,15 +31,15 @@ bool PhotonTracer::landsOn(const Path& path, int group) const {
 }
 
 /// Returns false where the path ends.
-bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
-                         std::vector<StoredPhoton>& out) const {
+bool PhotonTracer::interact(Path& path, const Hit& hit, const Answer& answer, const Draw& xi, uint32_t stream,
+                            std::vector<StoredPhoton>& out) const {
   const int group = groupOf(hit);
   const PhotonModel model = surfaces_.model(group);
-  const uint32_t name = nameOf(path, stream);
+  const uint32_t name = keyOf(path, stream);
   if (model == PhotonModel::Transparent)
-    return passes(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
+    return passThrough(path, hit, scene_.groups[static_cast<size_t>(group)].attributes->color, xi.survival);
   if (!surfaces_.isDiffuse(group))
-    return isMirrored(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
+    return reflectOrRefract(path, hit, xi.survival, sobol1(path.number, hashCombine(name, 2u)));
   // A transparent part stores no light. Example: the card around the picture of a leaf.
   const vec3 transmitted = 1.0f - answer.opacity;
   const float passing = (transmitted.x + transmitted.y + transmitted.z) / 3;
@@ -50,19 +50,20 @@ bool PhotonTracer::meets(Path& path, const Hit& hit, const Answer& answer, const
                    path.focused});
   }
   if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
-    return passes(path, hit, transmitted / passing, xi.survival);
-  return lands && isScattered(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
+    return passThrough(path, hit, transmitted / passing, xi.survival);
+  return lands && scatter(path, hit, answer.reflected / (1 - passing), xi, hashCombine(name, 2u));
 }
 
 /// Passes the surface as if nothing were there, tinted: it counts as no arrival, and makes no caustic.
-bool PhotonTracer::passes(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
-  if (++path.passes > kMostPasses || !survives(path, transmitted, xi)) return false;
+bool PhotonTracer::passThrough(Path& path, const Hit& hit, const vec3& transmitted, float xi) const {
+  if (++path.surfacesPassed > kMostSurfacesPassed || !survive(path, transmitted, xi)) return false;
   leave(path, hit, path.ray.direction);
   return true;
 }
 
-bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
-  if (++path.depth >= settings_.maxDepth || !scatters(path) || !survives(path, reflected, xi.survival)) return false;
+bool PhotonTracer::scatter(Path& path, const Hit& hit, const vec3& reflected, const Draw& xi, uint32_t side) const {
+  if (++path.depth >= settings_.maxDepth || !countScattering(path) || !survive(path, reflected, xi.survival))
+    return false;
   // The hemisphere is that of the polygon. Around the interpolated normal some photons would start into the polygon,
   // and be caught in the body that it bounds.
   const bool through = surfaces_.model(groupOf(hit)) == PhotonModel::Translucent && sobol1(path.number, side) < 0.5f;
@@ -75,10 +76,10 @@ bool PhotonTracer::isScattered(Path& path, const Hit& hit, const vec3& reflected
   return true;
 }
 
-bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float xi) const {
+bool PhotonTracer::reflectOrRefract(Path& path, const Hit& hit, float survival, float xi) const {
   const PhotonModel model = surfaces_.model(groupOf(hit));
   const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
-  if (++path.depth >= settings_.maxDepth || !survives(path, tint, survival)) return false;
+  if (++path.depth >= settings_.maxDepth || !survive(path, tint, survival)) return false;
   if (path.specular && !path.focused) {
     path.focused = true;
     ++path.bounces;
@@ -93,13 +94,13 @@ bool PhotonTracer::isMirrored(Path& path, const Hit& hit, float survival, float 
 }
 
 /// Counts a diffuse surface or a collision. Returns false if no later arrival would count.
-bool PhotonTracer::scatters(Path& path) const {
+bool PhotonTracer::countScattering(Path& path) const {
   path.specular = false;
   return ++path.bounces <= settings_.mostBounces && (path.focused || !settings_.focusedOnly);
 }
 
 /// Surviving photons keep the power that they came with, so that all stored photons have about the same power.
-bool PhotonTracer::survives(Path& path, const vec3& left, float xi) {
+bool PhotonTracer::survive(Path& path, const vec3& left, float xi) {
   const vec3 power = path.power * left;
   const float survival = std::min(1.0f, maxComponent(power) / maxComponent(path.power));
   if (!(xi < survival)) return false;

@@ -19,7 +19,7 @@ namespace {
 /// Bakes a run of texels, or takes over what an interrupted run has baked.
 std::vector<BakedTexel> keptTexels(const RadiosityBake& bake, std::span<const RadiosityChart> charts,
                                    const TexelRun& run, size_t index) {
-  KeptWork* kept = bake.settings.kept;
+  Checkpoint* kept = bake.settings.kept;
   std::vector<BakedTexel> out;
   if (kept && kept->take(KeptKind::RadiosityTexels, index, out) && out.size() == run.count) return out;
   out = bakeTexels(bake, charts, run);

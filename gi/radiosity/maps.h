@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "gi/gather/hit_radiance.h"
-#include "reyes/base/kept_work.h"
+#include "reyes/base/checkpoint.h"
 #include "reyes/camera.h"
 
 namespace tomales {
@@ -21,7 +21,7 @@ struct RadiositySettings {
   /// pictures (layout.cpp).
   int64_t mostTexels = int64_t{1} << 25;
   std::function<void(float)> progress{};  ///< Is told how far baking is, by any thread.
-  KeptWork* kept = nullptr;               ///< Keeps what is baked for a later run. Null: nothing does.
+  Checkpoint* kept = nullptr;             ///< Keeps what is baked for a later run. Null: nothing does.
 };
 
 /// Texels of one side of a patch, row by row, v down, and all coarser levels after them.

@@ -54,7 +54,7 @@ bool readAll(int file, int mostSeconds, std::string& out) {
 
 }  // namespace
 
-std::optional<std::string> madeApart(const std::function<std::string()>& make, int mostSeconds, std::string& fate) {
+std::optional<std::string> runInFork(const std::function<std::string()>& make, int mostSeconds, std::string& fate) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     fate = std::strerror(errno);

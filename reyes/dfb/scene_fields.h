@@ -38,7 +38,7 @@ void fields(A& a, ShadeGroup& x) {
 /// guards this list.
 template <class A>
 void fields(A& a, Scene& x) {
-  each(a, x.options, x.cameraFromWorld, x.lights, x.worldFromNamed, x.where, x.groups);
+  each(a, x.options, x.cameraFromWorld, x.lights, x.worldFromNamed, x.worldFromOpenings, x.where, x.groups);
   std::vector<SourceLoc> places;
   for (const Object& o : x.objects) places.push_back(o.where);
   field(a, places);

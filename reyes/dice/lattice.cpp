@@ -80,6 +80,100 @@ void latticeOver(const UvRect& rect, int nu, int nv, float* u, float* v) {
   }
 }
 
+/// Goes over the pieces of a grid with the parameters of their lattices. Pieces of the same rectangle, one after the
+/// other, share them.
+class PieceLattices {
+ public:
+  explicit PieceLattices(const Grid& g) : g_(g), u_(ofThread().u), v_(ofThread().v) {
+    u_.resize(static_cast<size_t>(padded(g.verticesOfPiece())));
+    v_.resize(u_.size());
+  }
+
+  /// Calls visit(piece, number of its first vertex, u, v).
+  template <class Visit>
+  void forEach(const Visit& visit) {
+    int first = 0;
+    for (const Grid::Piece& p : g_.pieces) {
+      if (p.rect.u0 != laid_.u0 || p.rect.u1 != laid_.u1 || p.rect.v0 != laid_.v0 || p.rect.v1 != laid_.v1)
+        latticeOver(laid_ = p.rect, g_.nu, g_.nv, u_.data(), v_.data());
+      visit(p, first, u_.data(), v_.data());
+      first += g_.verticesOfPiece();
+    }
+  }
+
+ private:
+  struct Parameters {
+    AlignedVector<float> u, v;
+  };
+  static Parameters& ofThread() {
+    static thread_local Parameters parameters;
+    return parameters;
+  }
+
+  const Grid& g_;
+  AlignedVector<float>&u_, &v_;
+  UvRect laid_{0, 0, 0, 0};  ///< The rectangle that u_ and v_ belong to.
+};
+
+Grid emptyGrid(const Object& o, int object, std::span<const PatchPiece> pieces, int nu, int nv, int keyCount,
+               Pool* pool) {
+  const Prim& prim = o.shape();
+  Grid g;
+  g.object = object;
+  g.pieces.clear();
+  g.pieces.reserve(pieces.size());
+  for (const PatchPiece& p : pieces)
+    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
+  g.allocate(nu, nv, keyCount, floatsOfPoint(prim.primvars()) + floatsOfPoint(displacementVariables(*o.attributes)),
+             pool);
+  g.kept = keptOfCells(prim, g);
+  return g;
+}
+
+/// Fills P, N and the turns of all keys. Returns the transformation of normals at the first key.
+mat3 placeVertices(const Object& o, const DiceKeys& keys, PieceLattices& lattices, Grid& g) {
+  const int n = g.vertexCount();
+  const auto vertices = [&](const Prim& shape, Evaluated& out) {
+    lattices.forEach([&](const Grid::Piece& p, int first, const float* u, const float* v) {
+      if (isWhole(p.rect))
+        shape.evaluateLattice(p.patch, g.nu, g.nv, u, v, out.view(first));
+      else
+        shape.evaluate(p.patch, g.verticesOfPiece(), u, v, out.view(first));
+    });
+  };
+  const mat4 first = keys.targetFromObject.at(keys.times.front());
+  const mat3 normals = normalMatrix(o, first);
+  Evaluated e(n);
+  for (int key = 0; key < g.keyCount; ++key) {
+    const float time = keys.times[static_cast<size_t>(key)];
+    const mat4 m = key == 0 ? first : keys.targetFromObject.at(time);
+    if (g.keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(first)));
+    if (key == 0 || o.shapes.size() > 1) evaluateAt(o, time, n, e, vertices);
+    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
+    if (key == 0) transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
+  }
+  return normals;
+}
+
+/// Fills the primitive variables at the first key, whose transformations are m and `normals`. Returns their floats.
+int interpolatePrimvars(const Prim& prim, const mat4& m, const mat3& normals, PieceLattices& lattices, Grid& g) {
+  const int n = g.vertexCount();
+  int offset = 0;
+  for (size_t k = 0; k < prim.primvars().size(); ++k) {
+    const Primvar& p = prim.primvars()[k];
+    lattices.forEach([&](const Grid::Piece& piece, int first, const float* u, const float* v) {
+      if (first == 0 || p.storage != Storage::Constant)
+        prim.interpolate(piece.patch, static_cast<int>(k), g.verticesOfPiece(), u, v, g.primvar(offset) + first,
+                         g.stride());
+    });
+    for (int c = 0; p.storage == Storage::Constant && c < p.width; ++c)
+      std::fill_n(g.primvar(offset + c), n, g.primvar(offset + c)[0]);
+    transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
+    offset += p.width;
+  }
+  return offset;
+}
+
 }  // namespace
 
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
@@ -96,77 +190,21 @@ Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, in
 Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& keys,
           Pool* pool) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
-  const int keyCount = static_cast<int>(keys.times.size());
   const Prim& prim = o.shape();
   prefetch(prim, pieces, [](const PatchPiece& p) { return p.patch; });
-  int floats = 0;
-  for (const Primvar& p : prim.primvars()) floats += p.width;
-  for (const Primvar& p : displacementOutputs(*o.attributes)) floats += p.width;
-
-  Grid g;
-  g.object = object;
-  g.pieces.clear();
-  g.pieces.reserve(pieces.size());
-  for (const PatchPiece& p : pieces)
-    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
-  g.allocate(nu, nv, keyCount, floats, pool);
-  g.kept = keptOfCells(prim, g);
-
-  const int n = g.vertexCount(), ofPiece = g.verticesOfPiece();
-  static thread_local AlignedVector<float> u, v;
-  u.resize(static_cast<size_t>(padded(ofPiece)));
-  v.resize(u.size());
-  UvRect laid{0, 0, 0, 0};  // the rectangle that u and v belong to
-  /// Calls f(piece, number of its first vertex), with u and v set for the piece.
-  const auto forPieces = [&](const auto& f) {
-    int first = 0;
-    for (const Grid::Piece& p : g.pieces) {
-      if (p.rect.u0 != laid.u0 || p.rect.u1 != laid.u1 || p.rect.v0 != laid.v0 || p.rect.v1 != laid.v1)
-        latticeOver(laid = p.rect, nu, nv, u.data(), v.data());
-      f(p, first);
-      first += ofPiece;
-    }
-  };
-  const auto vertices = [&](const Prim& shape, Evaluated& out) {
-    forPieces([&](const Grid::Piece& p, int first) {
-      if (isWhole(p.rect))
-        shape.evaluateLattice(p.patch, nu, nv, u.data(), v.data(), out.view(first));
-      else
-        shape.evaluate(p.patch, ofPiece, u.data(), v.data(), out.view(first));
-    });
-  };
-  Evaluated e(n);
-  for (int key = 0; key < keyCount; ++key) {
-    const float time = keys.times[static_cast<size_t>(key)];
-    const mat4 m = keys.currentFromObject.at(time);
-    if (keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(keys.currentFromObject.at(keys.times.front()))));
-    if (key == 0 || o.shapes.size() > 1) evaluateAt(o, time, n, e, vertices);
-    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
-    if (key == 0) {
-      const mat3 normals = normalMatrix(o, m);
-      transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
-      int offset = 0;
-      for (size_t k = 0; k < prim.primvars().size(); ++k) {
-        const Primvar& p = prim.primvars()[k];
-        forPieces([&](const Grid::Piece& piece, int first) {
-          if (first == 0 || p.storage != Storage::Constant)
-            prim.interpolate(piece.patch, static_cast<int>(k), ofPiece, u.data(), v.data(), g.primvar(offset) + first,
-                             g.stride());
-        });
-        for (int c = 0; p.storage == Storage::Constant && c < p.width; ++c)
-          std::fill_n(g.primvar(offset + c), n, g.primvar(offset + c)[0]);
-        transformPrimvar(p, m, normals, n, g.primvar(offset), g.stride());
-        offset += p.width;
-      }
-    }
-  }
-  forPieces([&](const Grid::Piece& p, int first) {
-    prim.surfaceParameters(p.patch, ofPiece, u.data(), v.data(), g.u() + first, g.v() + first);
+  Grid g = emptyGrid(o, object, pieces, nu, nv, static_cast<int>(keys.times.size()), pool);
+  PieceLattices lattices(g);
+  const mat3 normals = placeVertices(o, keys, lattices, g);
+  int filled = interpolatePrimvars(prim, keys.targetFromObject.at(keys.times.front()), normals, lattices, g);
+  for (const Primvar& p : displacementVariables(*o.attributes))  // the shader may fail, or assign none
+    for (int c = 0; c < p.width; ++c) std::fill_n(g.primvar(filled++), g.vertexCount(), 0.0f);
+  lattices.forEach([&](const Grid::Piece& p, int first, const float* u, const float* v) {
+    prim.surfaceParameters(p.patch, g.verticesOfPiece(), u, v, g.u() + first, g.v() + first);
   });
 
   // A normal that the user gives is the shading normal (RISpec 5.2); the geometric one is still measured from P.
   if (const int offset = offsetOf(prim.primvars(), "N"); offset >= 0)
-    for (int axis = 0; axis < 3; ++axis) std::copy_n(g.primvar(offset + axis), n, g.N(axis));
+    for (int axis = 0; axis < 3; ++axis) std::copy_n(g.primvar(offset + axis), g.vertexCount(), g.N(axis));
   return g;
 }
 

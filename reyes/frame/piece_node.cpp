@@ -11,10 +11,10 @@ namespace tomales {
 
 namespace {
 
-constexpr int kSmall_cells = 256;     ///< Pieces with fewer cells share a node if they begin in the same bucket.
-constexpr int kStack_vertices = 512;  ///< Grids of a node are stacked up to about so many vertices.
+constexpr int kLeastCellsOfOwnNode = 256;  ///< Pieces with fewer cells share a node if they begin in the same bucket.
+constexpr int kMostVerticesOfStack = 512;  ///< Grids of a node are stacked up to about so many vertices.
 /// A piece with more vertices is not stacked: too many would be diced for one that is visible.
-constexpr int kStacked_vertices = 64;
+constexpr int kMostVerticesOfStackedPiece = 64;
 
 TOMALES_HOT bool allSeeable(const Grid& g, int key, const Camera& camera) {
   const float *x = g.P(key, 0), *y = g.P(key, 1), *z = g.P(key, 2);
@@ -79,8 +79,8 @@ std::vector<PieceStack> stacksOf(const HideContext& context, std::span<const Nei
   for (const Neighbour& n : neighbours) {
     const SubPatch& p = *n.piece;
     const int vertices = (p.nu + 1) * (p.nv + 1);
-    const auto most = static_cast<size_t>(std::max(1, kStack_vertices / vertices));
-    const bool stacks = vertices <= kStacked_vertices && canStack(context, p);
+    const auto most = static_cast<size_t>(std::max(1, kMostVerticesOfStack / vertices));
+    const bool stacks = vertices <= kMostVerticesOfStackedPiece && canStack(context, p);
     if (last && stacks && n.sharesGrid(*last) && out.back().pieces.size() < most) {
       out.back().pieces.push_back({p.patch, p.rect});
       extend(out.back().place, {p.raster, p.zMin});
@@ -213,7 +213,7 @@ HideNodes pieceNodes(HideContext& context, std::span<const SubPatch> pieces, con
   for (const SubPatch& piece : pieces) {
     const BucketRange touched = within & context.buckets.touched(piece.raster);
     if (touched.empty()) continue;
-    if (piece.nu * piece.nv < kSmall_cells)
+    if (piece.nu * piece.nv < kLeastCellsOfOwnNode)
       small.emplace_back(touched, piece);
     else
       out.push_back(std::make_unique<PieceNode>(context, std::vector{alone(piece)}, Placement{piece.raster, piece.zMin},

@@ -11,7 +11,7 @@ namespace {
 void addEmission(const ShadePoints& points, const ShadingSystem& shading, const ShadeContext& context,
                  ShadedPoints& out) {
   std::vector<vec3> emission;
-  shading.emission(points, emission, context);
+  shading.areaLightRadiance(points, emission, context);
   for (size_t i = 0; i < emission.size(); ++i)
     for (int c = 0; c < 3; ++c) out.Ci[c][i] += emission[i][c];
 }
@@ -52,7 +52,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
   }
 }
 
-bool shadeTiles(std::span<const uint32_t> tiles, const ShadeSteps& steps, const Scene& scene,
+bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};

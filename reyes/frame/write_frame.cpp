@@ -15,9 +15,9 @@ MatteNames matteNames(const Scene& scene) {
   MatteNames out;
   for (const ShadeGroup& group : scene.groups) {
     const Attributes& a = *group.attributes;
-    const auto shading = a.user.find("identifier:shadinggroup");
-    const bool given = shading != a.user.end() && !shading->second.strings.empty();
-    out.materials.push_back(given ? shading->second.strings[0] : a.surface ? a.surface->name : "defaultsurface");
+    const Param* given = findParam(a.user, "identifier:shadinggroup");
+    const std::string surface = a.surface ? a.surface->name : "defaultsurface";
+    out.materials.push_back(given && !given->strings.empty() ? given->strings[0] : surface);
     const bool named = !a.name.empty() || group.exampleObject < 0;
     out.objects.push_back(named ? a.name : objectName(scene.objects[static_cast<size_t>(group.exampleObject)]));
   }

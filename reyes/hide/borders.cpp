@@ -132,7 +132,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
   }
 }
 
-vec2 onLattice(const vec2& at) { return {snapToLattice(at.x), snapToLattice(at.y)}; }
+vec2 onLattice(const vec2& at) { return {snapToSubpixel(at.x), snapToSubpixel(at.y)}; }
 
 /// Returns the line at which a straight edge ends. Null: an end is too far away to be seen exactly.
 std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& cameraFromObject, const Camera& camera) {

@@ -1,11 +1,11 @@
 // Private to the hider: how the borders of pieces are closed (docs/decisions/0003).
 #pragma once
 #include "reyes/hide.h"
-#include "reyes/hide/lattice.h"
+#include "reyes/hide/subpixel.h"
 
 namespace tomales {
 
-constexpr float kLeastReach_px = 2 / kLattice;  ///< Least distance by which a border reaches out.
+constexpr float kLeastReach_px = 2 / kSubpixels;  ///< Least distance by which a border reaches out.
 
 /// Decides for each border of a still grid's pieces whether it ends at a line, reaches out, or neither, and sets
 /// RasterGrid::lines and RasterGrid::reaching. Pre: `grid` and `inSolid` are set.

@@ -15,7 +15,7 @@ HWY_INLINE void loadCorners(float to[4][kLanes], const float* from, int row) {
 }
 
 HWY_INLINE void setLattice(const float from[4][kLanes], float origin, int32_t to[4][kLanes]) {
-  const Floats zero = all(origin), scale = all(kLattice), far = all(65536.0f);
+  const Floats zero = all(origin), scale = all(kSubpixels), far = all(65536.0f);
   for (int k = 0; k < 4; ++k)
     for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
       const Floats at = hn::Mul(hn::Sub(hn::Load(kF, from[k] + g), zero), scale);

@@ -73,12 +73,6 @@ TOMALES_HOT void markTurning(const Grid& g, float cosine, int32_t* __restrict tu
 
 constexpr auto kFront = static_cast<int>(Side::Front), kBack = static_cast<int>(Side::Back);
 
-int primvarFloats(const ShadeGroup& group) {
-  int n = 0;
-  for (const Primvar& p : group.primvars) n += p.width;
-  return n;
-}
-
 /// Sets s and t of points without primitive variables of that name.
 void setTextureCoordinates(const ShadeGroup& group, ShadePoints& points) {
   const Attributes& a = *group.attributes;
@@ -136,7 +130,7 @@ void FacetTable::make(std::span<const uint32_t> unseen, HideDiagnostics* diagnos
   tile_.batches.reserve(requests_.size());
   for (const PointRequests& requests : requests_) {
     const ShadeGroup& group = scene_.groups[static_cast<size_t>(requests.group)];
-    ShadePoints& points = tile_.batches.emplace_back(requests.group, primvarFloats(group), group.steps);
+    ShadePoints& points = tile_.batches.emplace_back(requests.group, floatsOfPoint(group.primvars), group.steps);
     points.reserve(static_cast<int>(requests.list.size()));
     fill(requests, points);
     setTextureCoordinates(group, points);

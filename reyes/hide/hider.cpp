@@ -1,10 +1,10 @@
 #include <tuple>
 
 #include "reyes/base/check.h"
-#include "reyes/hide/lattice.h"
 #include "reyes/hide/raster.h"
 #include "reyes/hide/resolve.h"
 #include "reyes/hide/solids.h"
+#include "reyes/hide/subpixel.h"
 #include "reyes/hide/unseen.h"
 
 namespace tomales {
@@ -83,7 +83,7 @@ Hider::~Hider() = default;
 
 bool Hider::hidden(const Bound2& raster, float zMin) const {
   // The lattice moves vertices by at most this.
-  const vec2 reach(1 / kLattice);
+  const vec2 reach(1 / kSubpixels);
   const SampleBuffer& s = impl_->samples;
   return s.hides(Bound2{raster.lo - reach, raster.hi + reach}, impl_->camera.leastDepthKey(zMin));
 }
@@ -101,7 +101,7 @@ void Hider::insert(const std::shared_ptr<const RasterGrid>& raster) {
   s.crossings.beginGrid();
   const RasterJob job{*raster, impl_->grids, entry.firstCell, entry.keyTimes, impl_->camera, s};
   if (raster->blur) {
-    s.showBlur();
+    s.addTimesAndLens();
     rasterizeBlurred(job);
   } else if (raster->grid->round) {
     rasterizeRound(job);

@@ -5,7 +5,7 @@
 #include "reyes/base/rng.h"
 #include "reyes/hide.h"
 #include "reyes/hide/aperture.h"
-#include "reyes/hide/lattice.h"
+#include "reyes/hide/subpixel.h"
 
 namespace tomales {
 namespace {
@@ -16,9 +16,9 @@ constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 <
 
 /// Returns the position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
 float placed(int i, int n, float inside) {
-  const float width = kLattice / static_cast<float>(n);
+  const float width = kSubpixels / static_cast<float>(n);
   const float lo = std::ceil(static_cast<float>(i) * width), hi = std::ceil(static_cast<float>(i + 1) * width) - 1;
-  return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kLattice;
+  return std::clamp(std::round((static_cast<float>(i) + inside) * width), lo, std::max(lo, hi)) / kSubpixels;
 }
 
 /// Returns a number in stratum `i` of n: rounding must not carry it into the next.

@@ -50,8 +50,8 @@ bool anyClipped(const Vertices& from, const Camera& camera, bool planes) {
 
 TOMALES_HOT void snap(float* __restrict x, float* __restrict y, int count) {
   for (int v = 0; v < count; ++v) {
-    x[v] = snapToLattice(x[v]);
-    y[v] = snapToLattice(y[v]);
+    x[v] = snapToSubpixel(x[v]);
+    y[v] = snapToSubpixel(y[v]);
   }
 }
 
@@ -100,7 +100,7 @@ RasterExtent extentOfSeeable(RasterGrid& r, const Camera& camera, int key, int f
     const vec2 at(r.x[k], r.y[k]), blur = glm::abs(camera.defocus(r.d[k]));
     e.bound.extend(at - blur);
     e.bound.extend(at + blur);
-    r.defocused |= std::max(blur.x, blur.y) > 1 / kLattice;
+    r.defocused |= std::max(blur.x, blur.y) > 1 / kSubpixels;
     e.dMin = std::min(e.dMin, r.d[k]);
   }
   return e;

@@ -94,7 +94,7 @@ struct FloatEdges {
 
 /// The same edges on the lattice, where they are exact: one multiplication of pairs tests a vector of samples. A sample
 /// is inside where dx * y - dy * x > limit.
-struct LatticeEdges {
+struct SubpixelEdges {
   int32_t pair[kLanes], limit[kLanes];
 
   struct At {
@@ -103,7 +103,7 @@ struct LatticeEdges {
   };
   struct Edge {
     Ints pair, limit;
-    HWY_INLINE Edge(const LatticeEdges& e, int i) : pair(hn::Set(kI, e.pair[i])), limit(hn::Set(kI, e.limit[i])) {}
+    HWY_INLINE Edge(const SubpixelEdges& e, int i) : pair(hn::Set(kI, e.pair[i])), limit(hn::Set(kI, e.limit[i])) {}
     HWY_INLINE Ints inside(const At& at) const { return hn::Sub(limit, products(pair, at.xy)); }
   };
 
@@ -144,7 +144,7 @@ struct alignas(64) Triangles {
 
  private:
   static HWY_INLINE Floats depthErrorBound(Floats slope, Floats depth) {
-    return hn::Add(hn::Add(hn::Div(slope, all(kLattice)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
+    return hn::Add(hn::Add(hn::Div(slope, all(kSubpixels)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
   }
 
   /// Returns twice the signed area of a triangle, from two of its sides.

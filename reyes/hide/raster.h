@@ -3,12 +3,12 @@
 // inside a triangle if it lies on the inner side of each edge. Every edge is evaluated from its lexicographically
 // smaller end, so both neighbours get the same value with opposite signs. The value zero belongs to the right of the
 // edge seen from that end: as if every sample were moved by (e^2, -e) for an infinitesimal e. Vertices of still grids
-// and samples lie on a lattice (kLattice). There the values of micropolygons up to 3.5 px are whole numbers
+// and samples lie on a lattice (kSubpixels). There the values of micropolygons up to 3.5 px are whole numbers
 // (reyes/hide/quad.h), which floats hold exactly, so that a fan around a vertex neither misses a sample nor hits it
 // twice.
 #pragma once
-#include "reyes/hide/lattice.h"
 #include "reyes/hide/samples.h"
+#include "reyes/hide/subpixel.h"
 
 namespace tomales {
 
@@ -54,7 +54,7 @@ void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t
 
 /// Returns the error bound of a depth key. It is above 0, because vertices lie on the lattice and numbers are floats.
 /// `slope` is the change of the depth key in a pixel.
-inline float depthErrorBound(float slope, float depth) { return slope / kLattice + 4e-7f * std::abs(depth) + kTiny; }
+inline float depthErrorBound(float slope, float depth) { return slope / kSubpixels + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.
 void noteDepthConflict(const RasterJob& job, size_t firstLane, uint64_t lanes, float depthError);

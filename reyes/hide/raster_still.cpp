@@ -24,7 +24,7 @@ bool endAtLines(const RasterGrid& r, const Corners& q, uint64_t cells) {
   return false;
 }
 
-void setLines(const RasterGrid&, const Corners&, uint64_t, Triangles<LatticeEdges>&) {}
+void setLines(const RasterGrid&, const Corners&, uint64_t, Triangles<SubpixelEdges>&) {}
 /// Puts lines in the place of the edges of cells that end at them.
 void setLines(const RasterGrid& r, const Corners& q, uint64_t cells, Triangles<FloatEdges>& t) {
   if (r.lines.empty()) return;
@@ -44,7 +44,7 @@ HWY_INLINE bool fitLattice(const RasterGrid& r, const Corners& q, uint64_t cells
   for (size_t g = 0; g < kLanes; g += hn::Lanes(kF)) {
     const Floats width = hn::Sub(hn::Load(kF, q.xMax + g), hn::Load(kF, q.xMin + g)),
                  height = hn::Sub(hn::Load(kF, q.yMax + g), hn::Load(kF, q.yMin + g));
-    large |= bitsOf(hn::Gt(hn::Max(width, height), all(LatticeEdges::kMost_px))) << g;
+    large |= bitsOf(hn::Gt(hn::Max(width, height), all(SubpixelEdges::kMost_px))) << g;
   }
   return samples.fitsLattice() && (large & cells) == 0 && (r.lines.empty() || !endAtLines(r, q, cells));
 }
@@ -146,7 +146,7 @@ void rasterizeRun(const RasterJob& job, int first, int end, Corners& q) {
     if (fitLattice(job.raster, q, cells, job.out)) {
       setLattice(q.x, job.out.origin.x, q.latticeX);
       setLattice(q.y, job.out.origin.y, q.latticeY);
-      sampleCells<LatticeEdges>(job, q, cells);
+      sampleCells<SubpixelEdges>(job, q, cells);
     } else {
       sampleCells<FloatEdges>(job, q, cells);
     }

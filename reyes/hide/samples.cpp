@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "reyes/hide/lattice.h"
+#include "reyes/hide/subpixel.h"
 
 namespace tomales {
 
@@ -53,8 +53,8 @@ TOMALES_HOT void placeRow(const SamplePattern& pattern, const int* patternAt, co
       for (int i = 0; i < kLanes; ++i) {
         x[i] = byX + fromX[k + i];
         y[i] = byY + fromY[k + i];
-        const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kLattice),
-                   latticeY = static_cast<int32_t>((y[i] - origin.y) * kLattice);
+        const auto latticeX = static_cast<int32_t>((x[i] - origin.x) * kSubpixels),
+                   latticeY = static_cast<int32_t>((y[i] - origin.y) * kSubpixels);
         xy[i] =
             static_cast<int32_t>(static_cast<uint32_t>(latticeY) << 16 | (static_cast<uint32_t>(latticeX) & 0xffffU));
       }
@@ -94,7 +94,7 @@ SampleBuffer::SampleBuffer(const SamplePattern& pattern, const Camera& camera, c
     std::fill_n(depth.data() + p * width + samples, width - samples, -kInfinity);
 }
 
-void SampleBuffer::showBlur() {
+void SampleBuffer::addTimesAndLens() {
   if (!time.empty()) return;
   time.resize(x.size());
   lensX.resize(x.size());

@@ -24,7 +24,7 @@ class GridTable {
   const Entry& add(const std::shared_ptr<const RasterGrid>& raster, std::vector<float> keyTimes);
   const Entry& of(uint32_t cell) const { return entries_[entryOfPage_[cell / kPage]]; }
   const std::vector<Entry>& entries() const { return entries_; }
-  /// Returns the number of names in use, gaps included.
+  /// Returns a number that is greater than every cell's.
   uint32_t cellCount() const { return static_cast<uint32_t>(entryOfPage_.size()) * kPage; }
   /// Frees every grid that has none of these cells. Pre: sorted.
   void keepOnly(const std::vector<uint32_t>& cells);
@@ -65,7 +65,7 @@ struct SampleBuffer {
   vec2 origin;                      ///< Raster position from which the lattice counts here.
   UnsetVector<float> x, y;          ///< Raster position.
   UnsetVector<int32_t> xy;          ///< The same on the lattice if it fits: y in the upper half, x in the lower.
-  UnsetVector<float> time;          ///< Fraction of the shutter. It and the lens are empty before showBlur().
+  UnsetVector<float> time;          ///< Fraction of the shutter. It and the lens are empty before addTimesAndLens().
   UnsetVector<float> lensX, lensY;  ///< Raster shift at a depth key of Camera::focusKey() + 1.
   /// Depth key of the nearest opaque hit; -infinity in padding, so that nothing is in front of it.
   AlignedVector<float> depth;
@@ -84,7 +84,7 @@ struct SampleBuffer {
     return rect.width() <= 2 * kHalf_px && rect.height() <= 2 * kHalf_px && std::max(rect.x1, rect.y1) <= kMostExact_px;
   }
   /// Makes times and lens positions, for the first grid that moves or is out of focus.
-  void showBlur();
+  void addTimesAndLens();
   /// Returns the number of a lane that DetailShare compares.
   float detail(size_t lane) const {
     const size_t width = static_cast<size_t>(lanes);

@@ -6,8 +6,6 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kNoLimit = 1e30f;  // RI_INFINITY
-
 /// Returns the area of the rectangle around the box in the picture, not cut off by its frame; infinite where the box
 /// reaches the eye.
 float size_px2(const GraphicsState& s, const std::vector<float>& b) {
@@ -26,9 +24,9 @@ float size_px2(const GraphicsState& s, const std::vector<float>& b) {
 /// Both shares of a transition are computed from the same numbers, so that they meet.
 DetailShare shareOf(const std::array<float, 4>& range, float ruler) {
   const auto [least, lower, upper, most] = range;
-  if (ruler < least || (ruler >= most && most < kNoLimit)) return {0, 0};
+  if (ruler < least || (ruler >= most && most < kRiInfinity)) return {0, 0};
   if (ruler < lower) return {(lower - ruler) / (lower - least), 1};
-  if (ruler > upper && most < kNoLimit) return {0, (most - ruler) / (most - upper)};
+  if (ruler > upper && most < kRiInfinity) return {0, (most - ruler) / (most - upper)};
   return {};
 }
 

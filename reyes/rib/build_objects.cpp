@@ -54,31 +54,58 @@ bool vanishes(const Motion& m) {
 
 bool sameBasis(const Basis& a, const Basis& b) { return a.step == b.step && a.matrix == b.matrix; }
 
+std::string descriptionOf(const GraphicsState& state, const Request& r) {
+  const std::string& name = state.scope.attributes->name;
+  return name.empty() ? r.name : r.name + " \"" + name + "\"";
+}
+
+/// Tells whether geometry shows here. Where it does not, and no level of detail is the reason, it says why.
+bool isDrawn(GraphicsState& state, const Request& r, const Motion& cameraFromObject) {
+  if (!state.world) {
+    state.warnOnce("outside", r, "rib-outside-world",
+                   descriptionOf(state, r) + ": geometry outside of WorldBegin and WorldEnd is ignored");
+    return false;
+  }
+  if (isFinite(cameraFromObject) && vanishes(cameraFromObject)) {
+    state.warnOnce(
+        "collapsed:" + descriptionOf(state, r), r, "rib-collapsed",
+        descriptionOf(state, r) + ": its transformation collapses it to a point or a line; nothing of it is drawn");
+    return false;
+  }
+  if (!isFinite(cameraFromObject) || !isInvertible(cameraFromObject)) {
+    state.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                     descriptionOf(state, r) + ": its transformation is singular or not finite; the object is dropped");
+    return false;
+  }
+  return !state.scope.attributes->detail.empty();
+}
+
+/// Does the same for a Volume, and warns if it should move.
+bool isDrawnVolume(GraphicsState& state, const Request& r, bool changes) {
+  if (state.isOpen(Block::Solid)) {
+    state.log.report(Severity::Missing, "rib-object-dropped", r.where,
+                     descriptionOf(state, r) + ": a Volume cannot be part of a solid; the object is dropped");
+    return false;
+  }
+  if (changes || state.scope.ctm.moving())
+    state.warnOnce("volume moves", r, "rib-motion",
+                   descriptionOf(state, r) + ": a Volume does not move; it stands where it is when the shutter opens");
+  return true;
+}
+
+void makeStill(Object& object, float time) {
+  object.shapes.resize(1);
+  object.shapeTimes.resize(1);
+  object.worldFromObject = Motion::still(object.worldFromObject.at(time));
+}
+
 }  // namespace
 
 void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times) {
   const Request& r = *keys[0];
-  if (!state_.world)
-    return state_.warnOnce("outside", r, "rib-outside-world",
-                           description(r) + ": geometry outside of WorldBegin and WorldEnd is ignored");
   const Motion cameraFromObject = state_.cameraFromObject();
-  if (isFinite(cameraFromObject) && vanishes(cameraFromObject))
-    return state_.warnOnce(
-        "collapsed:" + description(r), r, "rib-collapsed",
-        description(r) + ": its transformation collapses it to a point or a line; nothing of it is drawn");
-  if (!isFinite(cameraFromObject) || !isInvertible(cameraFromObject)) {
-    state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
-                      description(r) + ": its transformation is singular or not finite; the object is dropped");
-    return;
-  }
-  if (state_.scope.attributes->detail.empty()) return;  // another level of detail is drawn
   const bool isVolume = r.name == "Volume";
-  if (isVolume && state_.isOpen(Block::Solid))
-    return state_.log.report(Severity::Missing, "rib-object-dropped", r.where,
-                             description(r) + ": a Volume cannot be part of a solid; the object is dropped");
-  if (isVolume && (keys.size() > 1 || state_.scope.ctm.moving()))
-    state_.warnOnce("volume moves", r, "rib-motion",
-                    description(r) + ": a Volume does not move; it stands where it is when the shutter opens");
+  if (!isDrawn(state_, r, cameraFromObject) || (isVolume && !isDrawnVolume(state_, r, keys.size() > 1))) return;
   Master::Shapes shapes = shapesOf(keys, times);
   if (shapes.keys.empty()) return;
   if (const float reach = farthest(cameraFromObject, shapes.reach); !(reach < kFarthest)) {
@@ -92,11 +119,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapes = std::move(shapes.keys);
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
-  if (isVolume) {
-    object.shapes.resize(1);
-    object.shapeTimes.resize(1);
-    object.worldFromObject = Motion::still(state_.scope.ctm.at(state_.globals.options.shutterOpen));
-  }
+  if (isVolume) makeStill(object, state_.globals.options.shutterOpen);
   state_.scope.attributes = state_.attributes(state_.scope.attributes);
   object.attributes = state_.attributes(attributesOf(r, state_));
   object.where = r.where;
@@ -186,10 +209,7 @@ std::optional<GroundPicture> SceneBuilder::groundOf(const Request& r, int string
   }
 }
 
-std::string SceneBuilder::description(const Request& r) const {
-  const std::string& name = state_.scope.attributes->name;
-  return name.empty() ? r.name : r.name + " \"" + name + "\"";
-}
+std::string SceneBuilder::description(const Request& r) const { return descriptionOf(state_, r); }
 
 bool SceneBuilder::takesProcedurals() const {
   return state_.world && !recording_ && !master_ && !motion_ && !state_.isOpen(Block::Solid);
@@ -206,7 +226,7 @@ void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expa
   state_.world->procedurals.push_back(std::move(p));
 }
 
-SceneBuilder::Surroundings SceneBuilder::surroundings() const {
+SceneBuilder::StreamState SceneBuilder::streamState() const {
   return {state_.globals, {state_.world->cameraFromWorld, {}, {}, {}, state_.world->where}};
 }
 
@@ -262,7 +282,7 @@ void SceneBuilder::endMotion() {
 }
 
 void SceneBuilder::endObject() {
-  const Recording done = std::move(*recording_);
+  const ObjectRecording done = std::move(*recording_);
   recording_.reset();
   state_.globals.masters[done.begin.args[0].strings[0]] = done.master;
 }

@@ -59,7 +59,7 @@ void pxrLens(Options& o, const ParamList& params) {
   const auto positive = [&](const char* name) {
     const Param* p = findParam(params, name);
     const float value = p ? p->number(0) : 0;
-    return value > 0 && value < 1e30f ? value : 0;
+    return value > 0 && value < kRiInfinity ? value : 0;
   };
   const float stop = positive("fStop"), length = positive("focalLength"), distance = positive("focalDistance");
   if (stop > 0 && length > 0 && distance > 0) {
@@ -99,8 +99,8 @@ void projection(GraphicsState& s, const Request& r) {
 void clipping(GraphicsState& s, const Request& r) {
   const std::vector<float>& a = r.args[0].numbers;
   if (!(a[1] > a[0])) return rejectOption(s, r, "the far plane is not beyond the near plane");
-  s.globals.options.nearClip = clamped(s, r, a[0], 1e-6f, 1e30f);  // RI_EPSILON, RI_INFINITY
-  s.globals.options.farClip = std::min(a[1], 1e30f);
+  s.globals.options.nearClip = clamped(s, r, a[0], 1e-6f, kRiInfinity);  // RI_EPSILON
+  s.globals.options.farClip = std::min(a[1], kRiInfinity);
 }
 
 // RISpec 3.2 section 4.1.2: the side that the normal points to is clipped. The plane is in the space of the request.

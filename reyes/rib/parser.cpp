@@ -253,16 +253,16 @@ Param Parser::typedByValues(const std::string& name, Param values) {
 
 bool Parser::readValues(Param& param) {
   const bool bracketed = at(Kind::Open);
-  const auto readNumbers = [&](auto& out) { bracketed ? lexer_.takeNumbers(out) : lexer_.takeNumber(out); };
+  const auto appendNumbers = [&](auto& out) { bracketed ? lexer_.takeNumbers(out) : lexer_.takeNumber(out); };
   if (bracketed) lexer_.advance();
   while (lexer_.atNumbers() || at(Kind::String)) {
     if (at(Kind::String)) {
       param.strings.push_back(lexer_.peek().text);
       lexer_.advance();
     } else if (param.type == ValueType::Integer)
-      readNumbers(param.ints);
+      appendNumbers(param.ints);
     else
-      readNumbers(param.floats);
+      appendNumbers(param.floats);
     if (!bracketed) return true;
   }
   if (!bracketed || !at(Kind::Close)) return false;

@@ -13,7 +13,7 @@ namespace {
 SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const std::string>(name), 0}; }
 
 /// Tells whether the request changes more than the state that AttributeBegin saves.
-bool changesSurroundings(std::string_view name) {
+bool changesProceduralContext(std::string_view name) {
   static constexpr std::string_view kNames[] = {"Declare",       "ObjectEnd",       "Option",     "CoordinateSystem",
                                                 "LightSource",   "AreaLightSource", "Light",      "Resource",
                                                 "ResourceBegin", "ResourceEnd",     "WorldBegin", "WorldEnd"};
@@ -92,7 +92,7 @@ void Reader::tellOfOutliving(const Request& r) const {
 }
 
 void Reader::enter(const std::string& key, const std::string& folder) {
-  surroundings_.reset();
+  proceduralContext_.reset();
   open_.push_back({key, folder, Conditions(log_, [this](const std::string& v) { return variable(v); }), {}});
 }
 
@@ -103,7 +103,7 @@ void Reader::leave() {
   }
   open_.back().conditions.finish();
   open_.pop_back();
-  surroundings_.reset();
+  proceduralContext_.reset();
 }
 
 void Reader::handle(const Request& r) {
@@ -126,7 +126,7 @@ void Reader::perform(const Request& r) {
       {"Procedural", &Reader::procedural},   {"Procedural2", &Reader::procedural2}, {"System", &Reader::system},
       {"Geometry", &Reader::geometry},       {"Blobby", &Reader::geometry},         {"Volume", &Reader::geometry}};
   if (const auto it = table.find(r.name); it != table.end()) return (this->*it->second)(r);
-  if (changesSurroundings(r.name)) surroundings_.reset();
+  if (changesProceduralContext(r.name)) proceduralContext_.reset();
   declare(r, dictionary_, log_);
   const Param* mark =
       r.name == "Option" && r.args[0].strings[0] == "ribparse" ? findParam(r.params, "varsubst") : nullptr;

@@ -37,7 +37,7 @@ class Reader {
   using Performer = void (Reader::*)(const Request&);
 
   /// The requests between ArchiveBegin and ArchiveEnd.
-  struct Recording {
+  struct ArchiveRecording {
     Request begin;
     Requests requests;
     int depth = 1;  ///< Archives within archives are recorded as they are.
@@ -46,11 +46,11 @@ class Reader {
   struct Level {
     std::string key, folder;  ///< The key is the same for the same archive; archives are looked for in the folder.
     Conditions conditions;
-    std::optional<Recording> recording;
+    std::optional<ArchiveRecording> recording;
   };
 
   /// The state of the stream around a procedural, which it must know. Neighbours share it.
-  struct Surroundings {
+  struct ProceduralContext {
     RibSettings settings;
     Log& log;
     Dictionary dictionary;
@@ -58,12 +58,13 @@ class Reader {
     char mark;
     std::vector<std::string> keys;  ///< Keys of the archives that it stands in.
     std::string folder;
-    SceneBuilder::Surroundings builder;
+    SceneBuilder::StreamState builder;
     std::shared_ptr<ProgramPool> programs;
     std::shared_ptr<PluginPool> plugins;
   };
   /// Makes a reader for a procedural at `place`.
-  Reader(const Surroundings& around, const SceneBuilder::Place& place, std::shared_ptr<std::atomic<size_t>> budget);
+  Reader(const ProceduralContext& around, const SceneBuilder::LocalState& place,
+         std::shared_ptr<std::atomic<size_t>> budget);
 
   bool readTop(ByteStream& stream, const std::string& name);
   /// Returns the number of good requests. Each costs `cost` of the budget, at whose end reading stops; 0 has no limit.
@@ -106,7 +107,7 @@ class Reader {
   void procedural2(const Request& request);
   /// Reads now, or as a Procedural of the scene when its bound is needed.
   void later(const Request& request, const std::function<void(Reader&)>& readNow);
-  std::shared_ptr<const Surroundings> surroundings();
+  std::shared_ptr<const ProceduralContext> proceduralContext();
   void delayedArchive(const Request& request);
   void runProgram(const Request& request);
   /// Returns false, and reports it, if it is not allowed or not known.
@@ -136,8 +137,8 @@ class Reader {
   bool inFrame_ = false;
   std::shared_ptr<ProgramPool> programs_;
   std::shared_ptr<PluginPool> plugins_;
-  std::shared_ptr<const Surroundings> surroundings_;  ///< Null once they have changed.
-  char mark_ = 0;                                     ///< Marks variables in strings; 0 if there are none.
+  std::shared_ptr<const ProceduralContext> proceduralContext_;  ///< Null once it has changed.
+  char mark_ = 0;                                               ///< Marks variables in strings; 0 if there are none.
   SourceLoc last_;
 };
 

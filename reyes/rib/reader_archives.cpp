@@ -32,11 +32,11 @@ std::string folderOf(const std::string& path) {
 }  // namespace
 
 void Reader::record(const Request& r) {
-  std::optional<Recording>& recording = open_.back().recording;
+  std::optional<ArchiveRecording>& recording = open_.back().recording;
   if (!recording && r.name == "ArchiveEnd")
     return report(Severity::Warning, "rib-unbalanced", r, "without ArchiveBegin, ignored");
   if (!recording) {
-    recording = Recording{r, {}};
+    recording = ArchiveRecording{r, {}};
     return;
   }
   // Names that parameters had when the archive was recorded are resolved already; later ones need Declare too.
@@ -49,9 +49,9 @@ void Reader::record(const Request& r) {
 }
 
 void Reader::endRecording() {
-  Recording done = std::move(*open_.back().recording);
+  ArchiveRecording done = std::move(*open_.back().recording);
   open_.back().recording.reset();
-  surroundings_.reset();
+  proceduralContext_.reset();
   inlineArchives_[done.begin.args[0].strings[0]] = std::make_shared<const Requests>(std::move(done.requests));
 }
 

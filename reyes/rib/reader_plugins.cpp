@@ -53,7 +53,7 @@ void Reader::callPlugin(const Request& r, const std::string& name, const std::fu
   if (!mayEnter(r, key, kPluginCost)) return;
   const std::vector<float>& bound = r.args[2].numbers;
   const float detail = bound.size() == 6 ? builder_.rasterArea(bound) : kInfinity;
-  const SceneBuilder::Place place = builder_.place();
+  const SceneBuilder::LocalState place = builder_.place();
   std::vector<RiCall> calls;
   std::string trouble;
   try {

@@ -25,7 +25,7 @@ bool isBox(const std::vector<float>& b) { return b.size() == 6 && b[0] <= b[1] &
 
 }  // namespace
 
-Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place,
+Reader::Reader(const ProceduralContext& around, const SceneBuilder::LocalState& place,
                std::shared_ptr<std::atomic<size_t>> budget)
     : settings_(around.settings),
       log_(around.log),
@@ -40,14 +40,14 @@ Reader::Reader(const Surroundings& around, const SceneBuilder::Place& place,
   for (const std::string& key : around.keys) enter(key, around.folder);
 }
 
-std::shared_ptr<const Reader::Surroundings> Reader::surroundings() {
-  if (surroundings_) return surroundings_;
+std::shared_ptr<const Reader::ProceduralContext> Reader::proceduralContext() {
+  if (proceduralContext_) return proceduralContext_;
   std::vector<std::string> keys;
   for (const Level& level : open_) keys.push_back(level.key);
-  surroundings_ = std::make_shared<const Surroundings>(Surroundings{settings_, log_, dictionary_, inlineArchives_,
-                                                                    mark_, std::move(keys), open_.back().folder,
-                                                                    builder_.surroundings(), programs_, plugins_});
-  return surroundings_;
+  proceduralContext_ = std::make_shared<const ProceduralContext>(
+      ProceduralContext{settings_, log_, dictionary_, inlineArchives_, mark_, std::move(keys), open_.back().folder,
+                        builder_.streamState(), programs_, plugins_});
+  return proceduralContext_;
 }
 
 void Reader::procedural(const Request& r) {
@@ -106,7 +106,7 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
                   "procedurals within procedurals or archives stand for too much; ignored");
   builder_.addProcedural(
       bound,
-      [readNow, around = surroundings(), place = builder_.place(), budget] {
+      [readNow, around = proceduralContext(), place = builder_.place(), budget] {
         Reader reader(*around, place, budget);
         readNow(reader);
         return reader.builder_.takeExpansion();

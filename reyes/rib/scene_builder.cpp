@@ -45,7 +45,7 @@ bool usableArguments(const Request& r) {
                      [&](const RibArg& a) { return usable(a.numbers, allowsInfinity(r.name)); });
 }
 
-SceneBuilder::SceneBuilder(const RibSettings& settings, Log& log, const Surroundings& around, const Place& place)
+SceneBuilder::SceneBuilder(const RibSettings& settings, Log& log, const StreamState& around, const LocalState& place)
     : settings_(settings), state_(log), inProcedural_(true) {
   state_.scope = place.scope;
   state_.identity = place.identity;
@@ -168,7 +168,7 @@ bool SceneBuilder::performBlock(const Request& r) {
   } else if (r.name == "MotionEnd" || r.name == "ObjectEnd") {
     state_.warn(r, "rib-unbalanced", "without its Begin, ignored");
   } else if (r.name == "ObjectBegin") {
-    recording_ = Recording{.begin = r};
+    recording_ = ObjectRecording{.begin = r};
   } else if (r.name == "ObjectInstance") {
     instance(r);
   } else if (r.name.starts_with("Make") && findSignature(r.name)->support == Support::Works) {

@@ -12,20 +12,20 @@ class SceneBuilder : public RiSink {
  public:
   SceneBuilder(const RibSettings& settings, Log& log) : settings_(settings), state_(log) {}
 
-  /// The state that is the same for all that is inside a world. A Place is the state that changes there.
-  struct Surroundings {
+  /// The state that is the same for all that is inside a world. A LocalState is the state that changes there.
+  struct StreamState {
     Globals globals;
     World world;
   };
-  struct Place {
+  struct LocalState {
     Scope scope;
     Motion identity;
   };
   /// Builds the contents of a procedural: a world of its own, with the state of another.
-  SceneBuilder(const RibSettings& settings, Log& log, const Surroundings& around, const Place& place);
+  SceneBuilder(const RibSettings& settings, Log& log, const StreamState& around, const LocalState& place);
 
   void request(const Request& request) override;
-  /// Tells that the stream is over: it renders a world whose WorldEnd is missing.
+  /// Ends the stream: a world whose WorldEnd is missing is passed to RibSettings::onScene.
   void finish(const SourceLoc& where);
 
   /// Returns true where geometry may be left for later.
@@ -33,8 +33,8 @@ class SceneBuilder : public RiSink {
   /// Pre: takesProcedurals(), and the bound is a box.
   void addProcedural(const std::vector<float>& bound, std::function<Expansion()> open, const SourceLoc& where);
   /// Pre: inside a world.
-  Surroundings surroundings() const;
-  Place place() const { return {state_.scope, state_.identity}; }
+  StreamState streamState() const;
+  LocalState place() const { return {state_.scope, state_.identity}; }
   /// Returns the contents of the procedural. The builder must not be used after it.
   Expansion takeExpansion();
 
@@ -52,7 +52,7 @@ class SceneBuilder : public RiSink {
     size_t masterRequest;
     bool surplus = false;  ///< There were more requests than times.
   };
-  struct Recording {
+  struct ObjectRecording {
     Request begin;
     std::shared_ptr<Master> master = std::make_shared<Master>();
   };
@@ -91,7 +91,7 @@ class SceneBuilder : public RiSink {
   const RibSettings settings_;
   GraphicsState state_;
   std::optional<MotionBlock> motion_;
-  std::optional<Recording> recording_;
+  std::optional<ObjectRecording> recording_;
   Master* master_ = nullptr;  ///< Master of the instance that is being replayed.
   size_t masterRequest_ = 0;  ///< Index of its current request.
   int instanceDepth_ = 0;

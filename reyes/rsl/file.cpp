@@ -145,8 +145,8 @@ std::string RslFile::dump(const std::string& path, const RslSettings& settings, 
   std::string out;
   if (messages.hasErrors()) return out;
   for (const auto& s : checked.file.shaders) {
-    const HostedShader program(loweredFrom(checked, *s, path, messages), messages);
-    out += compiler::dump(stage == "lowered" ? program.lowered() : program.code());
+    const HostedShader hosted(loweredFrom(checked, *s, path, messages), messages);
+    out += compiler::dump(stage == "lowered" ? hosted.lowered() : hosted.code());
   }
   return out;
 }

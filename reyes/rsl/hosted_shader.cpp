@@ -89,7 +89,7 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   const bool hasExtent = lowered_.onGeometry || (code().capabilities & TM_LIGHT_SKY) != 0;
   if (hasExtent) declareExtent();
   TmShader& host = host_.shader;
-  host_.program = this;
+  host_.owner = this;
   host.abi = TM_SHADER_ABI;
   host.structBytes = sizeof host;
   host.kind = kindOf(lowered_.kind);
@@ -110,7 +110,7 @@ bool HostedShader::canBeOnGeometry() const {
 }
 
 const HostedShader* HostedShader::of(const TmShader& shader) {
-  return shader.shade == shade ? reinterpret_cast<const Hosted*>(&shader)->program : nullptr;
+  return shader.shade == shade ? reinterpret_cast<const Hosted*>(&shader)->owner : nullptr;
 }
 
 void HostedShader::declareParameters() {
@@ -159,8 +159,8 @@ const Program& HostedShader::programFor(const TmGrid& grid) const {
 
 void HostedShader::shade(const TmGrid* grid) {
   if (grid->count == 0) return;
-  const HostedShader* program = reinterpret_cast<const Hosted*>(grid->shader)->program;
-  run(program->programFor(*grid), *grid);
+  const HostedShader* hosted = reinterpret_cast<const Hosted*>(grid->shader)->owner;
+  run(hosted->programFor(*grid), *grid);
 }
 
 }  // namespace tomales::compiler

@@ -49,7 +49,7 @@ class HostedShader {
   std::vector<std::vector<const char*>> strings_;
   struct Hosted {
     TmShader shader{};
-    const HostedShader* program = nullptr;
+    const HostedShader* owner = nullptr;
   } host_;  ///< The host knows its first member, by whose address shade() finds the rest.
   std::unique_ptr<const HostedShader> area_;  ///< areaForm(), or null.
 };

@@ -61,7 +61,7 @@ const TmParamDecl* parameterOfArea(const ShaderCall& call, const std::string& pa
 }  // namespace
 
 void measureAreaLights(Scene& scene, ShaderRegistry& registry, Log& log) {
-  const std::string convention = wordOf(scene.options, "shade:arealight");
+  const std::string convention = wordOf(scene.options.user, "shade:arealight");
   const bool guessed = convention.empty() && isMadeForBmrt(scene);
   if (convention != "bmrt" && !guessed) return;
   const std::string path = pathOf(scene.options.searchPaths, "shader");

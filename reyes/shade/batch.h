@@ -1,5 +1,5 @@
-// One chunk of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one uses it;
-// its BoundScene is shared and constant.
+// One sub-batch of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one uses
+// it; its BoundScene is shared and constant.
 #pragma once
 #include "reyes/base/crash_note.h"
 #include "reyes/grid.h"

@@ -96,7 +96,9 @@ void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
 }
 
 /// Returns true if the role is set for all points. (A shader with an output of that role sets it point by point.)
-bool isSaid(const BoundShader& light, TmRole role) { return light.output(role) < 0 && light.number(role, 0) != 0; }
+bool isSetEverywhere(const BoundShader& light, TmRole role) {
+  return light.output(role) < 0 && light.number(role, 0) != 0;
+}
 
 /// Warns if only one of AreaLightSource and TM_LIGHT_AREA says that the light has an area.
 void warnOfArea(const BoundLight& light, const LightCall& call, bool hasGeometry, Log& log) {
@@ -142,9 +144,8 @@ std::shared_ptr<Sky> Binder::sky(const BoundShader& light) {
 
 Portals foundPortals(const Scene& scene) {
   Portals out;
-  mat4 currentFromOpening;
-  for (int k = 1; scene.cameraFromNamed(kSkyOpening + std::to_string(k), currentFromOpening); ++k)
-    out.add(currentFromOpening);
+  for (const mat4& worldFromOpening : scene.worldFromOpenings)
+    out.add(scene.cameraFromWorldAtOpen() * worldFromOpening);
   return out;
 }
 
@@ -158,8 +159,8 @@ std::unique_ptr<BoundLight> Binder::light(const LightCall& call, int index) {
   light->group = bound->text(TM_ROLE_GROUP, call.handle);
   light->category = bound->text(TM_ROLE_CATEGORY, "");
   if (light->can(TM_LIGHT_INDIRECT)) light->category += (light->category.empty() ? "" : ",") + std::string(kIndirect);
-  light->nondiffuse = isSaid(*bound, TM_ROLE_NONDIFFUSE);
-  light->nonspecular = isSaid(*bound, TM_ROLE_NONSPECULAR);
+  light->nondiffuse = isSetEverywhere(*bound, TM_ROLE_NONDIFFUSE);
+  light->nonspecular = isSetEverywhere(*bound, TM_ROLE_NONSPECULAR);
   light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;
   setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);

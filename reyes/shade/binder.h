@@ -1,5 +1,4 @@
-// Binds requests to shaders while a scene is bound.
-// Private to bound_scene. Threads: one at a time.
+// Private to bound_scene: finds the shaders of requests and resolves their parameters. Threads: one at a time.
 #pragma once
 #include <map>
 #include <set>

@@ -62,31 +62,26 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
   }
 }
 
-const Param* optionOf(const Options& options, const char* key) {
-  const auto it = options.user.find(key);
-  return it == options.user.end() ? nullptr : &it->second;
-}
-
 /// docs/decisions/0004.
 float specularSharpnessOf(const Scene& scene, Log& log) {
-  std::string convention = wordOf(scene.options, "shade:specular");
+  std::string convention = wordOf(scene.options.user, "shade:specular");
   if (!convention.empty() && convention != "prman" && convention != "rispec")
     log.report(Severity::Warning, "option-specular", {},
                "Option \"shade\" \"specular\" \"" + convention + "\" is neither \"prman\" nor \"rispec\"; ignored");
-  const Param* ofBmrt = optionOf(scene.options, "render:prmanspecular");
+  const Param* ofBmrt = findParam(scene.options.user, "render:prmanspecular");
   if (convention.empty() && ofBmrt) convention = ofBmrt->number(0) != 0 ? "prman" : "rispec";
   return convention == "rispec" ? 1.0f : 8.0f;
 }
 
 int lightCutOf(const Options& options) {
-  const Param* cut = optionOf(options, "trace:lightcut");
+  const Param* cut = findParam(options.user, "trace:lightcut");
   if (!cut) return kLightCut;
   return static_cast<int>(std::fmin(std::fmax(cut->number(0), 0.0f), float{kMostLightSamples}));  // 0 for NaN
 }
 
 /// Option "limits" "texturememory" is in KB.
 int64_t textureMemoryOf(const Options& options) {
-  const Param* limit = optionOf(options, "limits:texturememory");
+  const Param* limit = findParam(options.user, "limits:texturememory");
   return limit ? static_cast<int64_t>(std::max(1.0f, limit->number(0))) << 10 : TextureSettings{}.memory_bytes;
 }
 

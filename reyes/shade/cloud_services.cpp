@@ -58,7 +58,7 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOpt
                TmConstVec3 N, const TmChannel* values, int32_t valueCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
-  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.rehearsal || batch.context.sketch ||
+  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.purpose != Purpose::Picture ||
       batch.lights.restricted())
     return 1;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
@@ -144,7 +144,7 @@ bool occlusionByDisks(Batch& batch, const TmGrid* g, const char* file, TmConstVe
   DisksQuery inFile = disks;
   const float scale = 1 / lengthScale(batch.scene.cameraFromWorld);
   HemisphereQuery& far = inFile.falloff;
-  if (far.maxDistance < 1e30f) far.maxDistance *= scale;
+  if (far.maxDistance < kRiInfinity) far.maxDistance *= scale;
   if (far.bias > 0) far.bias *= scale;
   if (far.falloffMode != 1) far.falloff /= scale;
   std::string problem;

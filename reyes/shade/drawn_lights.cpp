@@ -31,16 +31,14 @@ int mostDrawn(const Batch& batch, const BoundLight& light) {
 
 TmConstVec3 from(TmConstVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
 TmVec3 from(TmVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
-EmitterPoints from(const EmitterPoints& p, int i) {
-  return {from(p.P, i), from(p.N, i), p.density + i, p.meetDensity + i};
-}
+EmitterPoints from(const EmitterPoints& p, int i) { return {from(p.P, i), from(p.N, i), p.pdf + i, p.meetPdf + i}; }
 
-LampReceiver receiverOf(const Batch& batch, int i, uint32_t lamps) {
+LightReceiver receiverOf(const Batch& batch, int i, uint32_t lamps) {
   return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i), lamps};
 }
 
 /// Draws a lamp of each cluster of each point.
-std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts) {
+std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts) {
   const size_t n = cuts.clusters.size();
   std::vector<uint32_t> index(n), stream(n);
   for (int i = 0; i < batch.points->count(); ++i) {
@@ -52,9 +50,9 @@ std::vector<DrawnLamp> drawnOf(const Batch& batch, const LightsOfSet& lamps, con
   }
   std::vector<float> xi(n);
   sobol1(index, stream, xi);
-  std::vector<DrawnLamp> out(n);
+  std::vector<DrawnLight> out(n);
   for (int i = 0; i < batch.points->count(); ++i) {
-    const std::span<const LampCluster> clusters = cuts.at(i);
+    const std::span<const LightCluster> clusters = cuts.at(i);
     const size_t first = cuts.first[static_cast<size_t>(i)];
     if (!clusters.empty())
       lamps.set->tree.draw(receiverOf(batch, i, lamps.count), clusters, std::span(xi).subspan(first, clusters.size()),
@@ -70,7 +68,7 @@ class Drawing {
       : cuts_(cuts), drawn_(drawnOf(batch, lamps, cuts)), at_(cuts.first.size() - 1), next_(cuts.first) {
     for (size_t i = 0; i < at_.size(); ++i) {
       int samples = 0;
-      for (const LampCluster& c : cuts.at(static_cast<int>(i))) samples += c.samples;
+      for (const LightCluster& c : cuts.at(static_cast<int>(i))) samples += c.samples;
       runs_ = std::max(runs_, samples);
     }
   }
@@ -82,7 +80,7 @@ class Drawing {
       if (l.lamp != kNoLamp && ++l.sample < l.samples) continue;
       l.lamp = kNoLamp;
       if (next_[i] == cuts_.first[i + 1]) continue;
-      const DrawnLamp& drawn = drawn_[next_[i]];
+      const DrawnLight& drawn = drawn_[next_[i]];
       const int samples = cuts_.clusters[next_[i]++].samples;
       l = {drawn.lamp, 0, samples, drawn.probability * static_cast<float>(samples)};
     }
@@ -91,7 +89,7 @@ class Drawing {
 
  private:
   const LightCuts& cuts_;
-  std::vector<DrawnLamp> drawn_;  ///< Of each cluster.
+  std::vector<DrawnLight> drawn_;  ///< Of each cluster.
   std::vector<LampOfPoint> at_;
   std::vector<uint32_t> next_;  ///< The cluster that each point takes next.
   int runs_ = 0;
@@ -141,8 +139,8 @@ void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampO
     xi1[i] = xi.y;
     if (!batch.scene.services->sampleEmitter(light.index, 1, from(view(g.P), i), xi0 + i, xi1 + i, from(points, i)))
       continue;
-    points.density[i] *= l.expected;
-    points.meetDensity[i] *= l.expected;
+    points.pdf[i] *= l.expected;
+    points.meetPdf[i] *= l.expected;
     set(g.L, i, get(g.Pl, i) - get(g.P, i));
   }
 }
@@ -156,7 +154,7 @@ const LightCuts& Lights::cutsOf(Batch& batch, const LightsOfSet& some) {
   if (!isNew) return cuts;
   const BoundLight& light = *set.lights[0];
   const int most = mostDrawn(batch, light), perLamp = light.can(TM_LIGHT_AREA) ? samplesOf(light, batch) : 1;
-  std::vector<LampCluster> cut;
+  std::vector<LightCluster> cut;
   cuts.first.push_back(0);
   for (int i = 0; i < batch.points->count(); ++i) {
     cut.clear();
@@ -190,28 +188,16 @@ void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
     }
     if (!batch.run(*first.bound, g)) return;
     darkenNonFinite(batch, *first.bound, g);
-    if (area) radianceToSample(g, points.density);
+    if (area) radianceToSample(g, points.pdf);
     for (int i = 0; i < g.count; ++i) {
       if (!area) set(g.Cl, i, get(g.Cl, i) / at[static_cast<size_t>(i)].expected);
       if (has[i]) continue;
       set(g.L, i, batch.points->facingNormal(i));
       set(g.Cl, i, vec3(0.0f));
     }
-    LightSample sample{&first,
-                       batch.arena.vec3(batch.tm.count),
-                       g.Cl,
-                       g.L,
-                       {false, run, drawing.runs()},
-                       nullptr,
-                       run,
-                       points.meetDensity,
-                       nullptr,
-                       g.L,
-                       g.params};
+    LightSample sample = sampleOf(batch, first, g, {false, run, drawing.runs()}, run);
+    sample.pdf = points.meetPdf;
     sample.drawn = true;
-    if (const int k = first.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) sample.nondiffuse = g.params[k].c[0];
-    if (const int k = first.bound->output(TM_ROLE_NONSPECULAR); k >= 0) sample.nonspecular = g.params[k].c[0];
-    normalizeAll(g.count, view(g.L), sample.L);
     if (first.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitters(batch, lamps, at, g);
       sample.pending = has;
@@ -229,7 +215,7 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
   std::vector<std::vector<uint32_t>> near(static_cast<size_t>(n));
   size_t runs = 0;
   for (int i = 0; i < n; ++i) {
-    if (!batch.tm.active[i] || !(lobe.density[i] > 0)) continue;
+    if (!batch.tm.active[i] || !(lobe.pdf[i] > 0)) continue;
     std::vector<uint32_t>& met = near[static_cast<size_t>(i)];
     lamps.tree.meet(batch.points->position(i), get(lobe.L, i), met);
     std::erase_if(met, [&](uint32_t lamp) { return lamp >= some.count; });
@@ -247,14 +233,14 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
       if (near[static_cast<size_t>(i)].size() <= run) continue;
       const uint32_t lamp = near[static_cast<size_t>(i)][run];
       services.meetEmitter(lamps.lights[lamp]->index, 1, from(view(g.P), i), from(lobe.L, i), from(points, i));
-      if (!(points.density[i] > 0)) continue;
+      if (!(points.pdf[i] > 0)) continue;
       met[i] = 1;
       any = true;
       at[static_cast<size_t>(i)].lamp = lamp;
       set(g.L, i, get(g.Pl, i) - get(g.P, i));
-      const float a = points.density[i] * lamps.tree.expected(receiverOf(batch, i, some.count), cuts.at(i), lamp),
-                  b = static_cast<float>(lobe.samples) * lobe.density[i];
-      points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
+      const float a = points.pdf[i] * lamps.tree.expected(receiverOf(batch, i, some.count), cuts.at(i), lamp),
+                  b = static_cast<float>(lobe.samples) * lobe.pdf[i];
+      points.pdf[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
     }
     if (!any) continue;
     g.active = met;
@@ -263,7 +249,7 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
     g.params = params.data();
     if (!batch.run(*first.bound, g)) return;
     // No point meets more lamps than there are, so each run's shadow rays are asked under another light's name.
-    addMet(batch, *lamps.lights[run], g, beforeEmitters(batch, lamps, at, g), points.density, lobe, Cl);
+    addMet(batch, *lamps.lights[run], g, beforeEmitters(batch, lamps, at, g), points.pdf, lobe, Cl);
   }
 }
 

@@ -32,13 +32,13 @@ int32_t gatherEnvironment(Batch& batch, const TmGrid* all, TmConstVec3 P, const 
   float *solidAngle = batch.arena.floats(g->count), *width = batch.arena.floats(g->count),
         *far = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
-    float density = 0;
-    const vec3 L = sky.sample(vec3(0.0f), vec3(0.0f), randomOf(batch, i, ray, options.samples), density);
+    float pdf = 0;
+    const vec3 L = sky.sample(vec3(0.0f), vec3(0.0f), randomOf(batch, i, ray, options.samples), pdf);
     set(along, i, L);
     set(direction, i, normalizeOr(currentFromMap * L, L));
-    solidAngle[i] = 1 / (density * static_cast<float>(options.samples));
+    solidAngle[i] = 1 / (pdf * static_cast<float>(options.samples));
     width[i] = kSkyCell;
-    far[i] = kFarAway;
+    far[i] = kRiInfinity;
     hit[i] = 0;
   });
   TmTextureOptions lookup = tmTextureDefaults();

@@ -34,8 +34,8 @@ bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const Emitt
 
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) {
-    set(g.L, i, light.sky->sample(get(g.P, i), batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.density[i]));
-    points.meetDensity[i] = kWorthOfSkySample * points.density[i];
+    set(g.L, i, light.sky->sample(get(g.P, i), batch.points->facingNormal(i), {g.xi0[i], g.xi1[i]}, points.pdf[i]));
+    points.meetPdf[i] = kWorthOfSkySample * points.pdf[i];
   }
 }
 
@@ -58,11 +58,11 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
     if (!batch.scene.services) return false;
     batch.scene.services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
     for (int i = 0; i < g.count; ++i)
-      if (points.density[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
+      if (points.pdf[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
     return true;
   }
   for (int i = 0; i < g.count; ++i)
-    points.density[i] = kWorthOfSkySample * light.sky->density(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
+    points.pdf[i] = kWorthOfSkySample * light.sky->pdf(get(g.P, i), batch.points->facingNormal(i), get(g.L, i));
   return true;
 }
 
@@ -73,9 +73,9 @@ TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach) {
   return toward;
 }
 
-void radianceToSample(const TmGrid& g, const float* density) {
+void radianceToSample(const TmGrid& g, const float* pdf) {
   for (int i = 0; i < g.count; ++i) {
-    const float weight = density[i] > 0 ? 1 / (kPi * density[i]) : 0.0f;
+    const float weight = pdf[i] > 0 ? 1 / (kPi * pdf[i]) : 0.0f;
     set(g.Cl, i, weight > 0 ? get(g.Cl, i) * weight : vec3(0.0f));
   }
 }

@@ -8,11 +8,11 @@ namespace tomales {
 class Batch;
 struct BoundLight;
 
-/// Unit directions that a surface has drawn itself, one of `samples` for each point. `density` is over solid angle; 0
+/// Unit directions that a surface has drawn itself, one of `samples` for each point. `pdf` is over solid angle; 0
 /// where there is no direction.
 struct LobeDirections {
   TmConstVec3 L;
-  const float* density;
+  const float* pdf;
   int sample, samples;
 };
 
@@ -34,9 +34,9 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g);
 /// geometry would bring; it becomes the radiance of the geometry there, so that the mean of Cl over the area arrives.
 /// The integral of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
 void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
-/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `density` is that of all samples
+/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `pdf` is that of all samples
 /// together, over solid angle.
-void radianceToSample(const TmGrid& g, const float* density);
+void radianceToSample(const TmGrid& g, const float* pdf);
 
 /// Returns the vectors to just before the points on the emitter, so that its own geometry is not in the way.
 TmVec3 beforeEmitter(Batch& batch, const TmGrid& g, float reach);

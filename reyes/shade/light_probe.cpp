@@ -13,7 +13,7 @@ bool ShadeServices::interpolatedHemisphere(const ShadePoints&, const uint8_t*, T
   return false;
 }
 
-void ShadeServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeWay&,
+void ShadeServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection&,
                                   const IndirectQuery&, const ShadeContext&, TmVec3 out) const {
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) set(out, i, vec3(0.0f));
@@ -75,8 +75,8 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   }
 }
 
-void ShadingSystem::emission(const ShadePoints& points, std::vector<vec3>& radiance,
-                             const ShadeContext& context) const {
+void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec3>& radiance,
+                                      const ShadeContext& context) const {
   radiance.clear();
   const int index = impl_->groups[static_cast<size_t>(points.group())].group->attributes->areaLight;
   if (index < 0 || index >= static_cast<int>(impl_->lights.size())) return;
@@ -122,7 +122,7 @@ MediumColors ShadingSystem::medium(int group, bool inside) const {
   return {color(TM_ROLE_SCATTERING), color(TM_ROLE_ABSORPTION)};
 }
 
-bool ShadingSystem::emits(int group) const {
+bool ShadingSystem::surfaceEmits(int group) const {
   return impl_->groups[static_cast<size_t>(group)].forDiffuseRays().can(TM_EMITS);
 }
 

@@ -58,4 +58,19 @@ int samplesOf(const BoundLight& light, const Batch& batch) {
   return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
 }
 
+LightSample sampleOf(Batch& batch, const BoundLight& light, const TmGrid& g, ShadowRays rays, int question) {
+  LightSample out{.light = &light,
+                  .L = batch.arena.vec3(batch.tm.count),
+                  .Cl = g.Cl,
+                  .toward = g.L,
+                  .rays = rays,
+                  .question = question,
+                  .far = g.L,
+                  .params = g.params};
+  if (const int k = light.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) out.nondiffuse = g.params[k].c[0];
+  if (const int k = light.bound->output(TM_ROLE_NONSPECULAR); k >= 0) out.nonspecular = g.params[k].c[0];
+  normalizeAll(g.count, view(g.L), out.L);
+  return out;
+}
+
 }  // namespace tomales

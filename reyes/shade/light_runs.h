@@ -30,4 +30,8 @@ void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g);
 vec2 sampleAt(const Batch& batch, const BoundLight& light, int i, int sample, int samples);
 int samplesOf(const BoundLight& light, const Batch& batch);
 
+/// Returns the sample that a run of a light's shader has left in `g`. No shadow ray of it is pending yet. `question`:
+/// LightSample::question.
+LightSample sampleOf(Batch& batch, const BoundLight& light, const TmGrid& g, ShadowRays rays, int question);
+
 }  // namespace tomales

@@ -18,14 +18,10 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
 
 /// Returns the bias of a lookup that gives none: Option "shadow" "bias", or a random one between "bias0" and "bias1".
 /// Negative if the map is to choose it.
-float shadowBias(const Options& options, uint32_t name) {
-  const auto number = [&](const char* key) -> const Param* {
-    const auto it = options.user.find(key);
-    return it == options.user.end() ? nullptr : &it->second;
-  };
-  if (const Param* bias = number("shadow:bias")) return bias->number(-1);
-  const Param *low = number("shadow:bias0"), *high = number("shadow:bias1");
-  return low && high ? lerp(low->number(0), high->number(0), unitFloat(name)) : -1.0f;
+float shadowBias(const Options& options, uint32_t seed) {
+  if (const Param* bias = findParam(options.user, "shadow:bias")) return bias->number(-1);
+  const Param *low = findParam(options.user, "shadow:bias0"), *high = findParam(options.user, "shadow:bias1");
+  return low && high ? lerp(low->number(0), high->number(0), unitFloat(seed)) : -1.0f;
 }
 
 /// Returns null if no light is running, or none of this group.

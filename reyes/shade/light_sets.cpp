@@ -31,7 +31,7 @@ Bound3 boundOf(const BoundLight& light, const ShadeServices* services) {
   return out;
 }
 
-/// TreeLamp::power, as TM_LIGHT_BOUNDED promises it.
+/// TreeLight::power, as TM_LIGHT_BOUNDED promises it.
 float powerOf(const BoundLight& light, const ShadeServices* services) {
   const vec3 color = glm::abs(light.bound->number(TM_ROLE_SCALE, 1) * light.bound->color(TM_ROLE_TINT, vec3(1.0f)));
   const float scale = (color.x + color.y + color.z) / 3;
@@ -94,13 +94,13 @@ std::vector<float> numbersOf(const std::vector<const BoundLight*>& lights, const
 }
 
 LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* services) {
-  std::vector<TreeLamp> lamps;
+  std::vector<TreeLight> lamps;
   float brightest = 0;
   for (const BoundLight* l : lights) {
     lamps.push_back({boundOf(*l, services), powerOf(*l, services)});
     brightest = std::max(brightest, lamps.back().power);
   }
-  for (TreeLamp& lamp : lamps) lamp.power = std::max({lamp.power, kDark * brightest, 1e-30f});
+  for (TreeLight& lamp : lamps) lamp.power = std::max({lamp.power, kDark * brightest, 1e-30f});
   std::vector<int> varying = varyingOf(lights);
   std::vector<float> numbers = numbersOf(lights, varying);
   return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(lamps))};

@@ -91,7 +91,7 @@ void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const 
   RayAnswers& answers = *batch.context.answers;
   const int n = batch.points->count();
   const uint64_t asked = sumOf(view(sample.toward), n, sample.rays);
-  const ShadowQuestion question{batch.context.chunk, sample.light->index, sample.question};
+  const ShadowQuestion question{batch.context.subBatch, sample.light->index, sample.question};
   uint8_t* unknown = batch.arena.bytes(n);
   std::copy_n(answers.recording ? batch.tm.active : want, n, unknown);
   const auto known = answers.shadows.find(question);

@@ -17,7 +17,7 @@ constexpr size_t kLeastSide = 16;
 
 struct Refinable {
   float error, light;
-  LampCluster cluster;
+  LightCluster cluster;
   bool operator<(const Refinable& o) const {
     return error != o.error ? error < o.error : cluster.node > o.cluster.node;
   }
@@ -38,7 +38,7 @@ struct Places {
 };
 
 /// A lamp is spread evenly over its bound.
-Places placesOf(const TreeLamp& lamp) {
+Places placesOf(const TreeLight& lamp) {
   const glm::dvec3 size(lamp.bound.size());
   return {double{lamp.power}, glm::dvec3(lamp.bound.center()), size * size / 12.0};
 }
@@ -52,7 +52,7 @@ Places joined(const Places& a, const Places& b) {
 
 }  // namespace
 
-LightTree::LightTree(std::vector<TreeLamp> lamps) : lamps_(std::move(lamps)), leafOf_(lamps_.size()) {
+LightTree::LightTree(std::vector<TreeLight> lamps) : lamps_(std::move(lamps)), leafOf_(lamps_.size()) {
   std::vector<uint32_t> order(lamps_.size());
   std::iota(order.begin(), order.end(), 0U);
   nodes_.reserve(2 * lamps_.size());
@@ -123,7 +123,7 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
   return index;
 }
 
-float LightTree::atBest(const LampReceiver& at, const Node& node) const {
+float LightTree::atBest(const LightReceiver& at, const Node& node) const {
   const vec3 to = node.center - at.P;
   const float distance2 = dot(to, to), distance = std::sqrt(distance2), r = node.radius;
   float cosine = 1;  // that of the sphere's point that is farthest in front
@@ -131,7 +131,7 @@ float LightTree::atBest(const LampReceiver& at, const Node& node) const {
   return node.power * cosine / std::max({distance2, r * r, kNearest});
 }
 
-void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const {
+void LightTree::cut(const LightReceiver& at, int most, int perLamp, std::vector<LightCluster>& out) const {
   out.clear();
   if (nodes_.empty() || at.lamps == 0) return;
   thread_local std::vector<Refinable> heap;
@@ -168,7 +168,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
 }
 
 // Where it is inlined, compilers unroll the loop before they make vectors of it.
-[[gnu::noinline]] std::array<float, LightTree::kParts> LightTree::importance(const LampReceiver& at,
+[[gnu::noinline]] std::array<float, LightTree::kParts> LightTree::importance(const LightReceiver& at,
                                                                              const Parts& parts) {
   std::array<float, kParts> out;
   const auto& [mx, my, mz] = parts.mean;
@@ -187,7 +187,7 @@ void LightTree::cut(const LampReceiver& at, int most, int perLamp, std::vector<L
   return out;
 }
 
-std::array<float, LightTree::kParts> LightTree::importanceBelow(const LampReceiver& at, const Node& node) const {
+std::array<float, LightTree::kParts> LightTree::importanceBelow(const LightReceiver& at, const Node& node) const {
   const Parts& all = parts_[node.below];
   if (at.lamps >= lamps_.size()) return importance(at, all);
   Parts lit = all;
@@ -196,8 +196,8 @@ std::array<float, LightTree::kParts> LightTree::importanceBelow(const LampReceiv
   return importance(at, lit);
 }
 
-void LightTree::draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
-                     std::span<DrawnLamp> out) const {
+void LightTree::draw(const LightReceiver& at, std::span<const LightCluster> clusters, std::span<const float> xi,
+                     std::span<DrawnLight> out) const {
   thread_local std::vector<Descent> open;
   open.clear();
   const auto put = [&](const Descent& d) {
@@ -228,9 +228,9 @@ void LightTree::draw(const LampReceiver& at, std::span<const LampCluster> cluste
   }
 }
 
-float LightTree::expected(const LampReceiver& at, std::span<const LampCluster> cut, uint32_t lamp) const {
+float LightTree::expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t lamp) const {
   const uint32_t leaf = leafOf_[lamp];
-  for (const LampCluster& c : cut) {
+  for (const LightCluster& c : cut) {
     uint32_t node = c.node;
     if (leaf < node || leaf >= nodes_[node].end) continue;
     float probability = 1;

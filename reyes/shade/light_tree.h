@@ -16,43 +16,43 @@
 namespace tomales {
 
 /// `power` is E/pi at a distance of 1, of a lamp that is seen from the front. It is positive.
-struct TreeLamp {
+struct TreeLight {
   Bound3 bound;
   float power;
 };
 
 /// A point that asks; N is 0 where light counts from all around. Only the first `lamps` of a tree's lamps shine there,
 /// so that lists of lamps that begin alike share a tree.
-struct LampReceiver {
+struct LightReceiver {
   vec3 P, N;
   uint32_t lamps = ~0U;
 };
 
 /// Lamps of which one is drawn, or one lamp with some samples.
-struct LampCluster {
+struct LightCluster {
   uint32_t node;
   int samples;
 };
 
 /// A lamp that has been drawn from a cluster, and with which probability.
-struct DrawnLamp {
+struct DrawnLight {
   uint32_t lamp;
   float probability;
 };
 
 class LightTree {
  public:
-  explicit LightTree(std::vector<TreeLamp> lamps);
+  explicit LightTree(std::vector<TreeLight> lamps);
 
   /// Divides the lamps into clusters. Together these have at most `most` samples, and a cluster of one lamp has at most
   /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
   /// `out` is overwritten. It is empty if no lamp shines there.
-  void cut(const LampReceiver& at, int most, int perLamp, std::vector<LampCluster>& out) const;
+  void cut(const LightReceiver& at, int most, int perLamp, std::vector<LightCluster>& out) const;
   /// Draws a lamp of each cluster by a number in [0, 1). Many at once overlap in the processor.
-  void draw(const LampReceiver& at, std::span<const LampCluster> clusters, std::span<const float> xi,
-            std::span<DrawnLamp> out) const;
+  void draw(const LightReceiver& at, std::span<const LightCluster> clusters, std::span<const float> xi,
+            std::span<DrawnLight> out) const;
   /// Returns the expected number of samples that a cut gives to a lamp.
-  float expected(const LampReceiver& at, std::span<const LampCluster> cut, uint32_t lamp) const;
+  float expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t lamp) const;
   /// Adds the lamps whose bounds a ray from P along the unit direction meets, in the order of the tree.
   void meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lamps) const;
 
@@ -81,13 +81,13 @@ class LightTree {
   uint32_t build(std::span<uint32_t> order);
   void fillParts();
   /// Returns the light of the lamps below a node if all were near the surface's front.
-  float atBest(const LampReceiver& at, const Node& node) const;
+  float atBest(const LightReceiver& at, const Node& node) const;
   /// Returns the light of each part on the average, up to a factor that all parts share. One at least is positive.
-  static std::array<float, kParts> importance(const LampReceiver& at, const Parts& parts);
+  static std::array<float, kParts> importance(const LightReceiver& at, const Parts& parts);
   /// Returns the same of the parts of a node where lamps shine; 0 where none do.
-  std::array<float, kParts> importanceBelow(const LampReceiver& at, const Node& node) const;
+  std::array<float, kParts> importanceBelow(const LightReceiver& at, const Node& node) const;
 
-  std::vector<TreeLamp> lamps_;
+  std::vector<TreeLight> lamps_;
   std::vector<Node> nodes_;
   std::vector<Parts> parts_;      ///< Of all nodes but leaves.
   std::vector<uint32_t> leafOf_;  ///< The node of each lamp.

@@ -54,7 +54,7 @@ std::string around(const Scene& scene, const vec3& place) {
 
 void LightUse::add(const Batch& batch) {
   const ShadeContext& context = batch.context;
-  if (context.kind != RayKind::Camera || context.sketch || context.rehearsal || context.light != Illumination::Lights ||
+  if (context.kind != RayKind::Camera || context.purpose != Purpose::Picture || context.light != Illumination::Lights ||
       !batch.lights.asked())
     return;
   const LightList& lights = batch.group.lights();

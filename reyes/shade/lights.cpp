@@ -93,7 +93,7 @@ void Lights::substitute(Batch& batch) {
   }
   if (bringsStored(batch.context.light) && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
-  samples_.push_back({&batch.scene.stored, L, Cl, L, {}, nullptr, 0, nullptr, nullptr, L});
+  samples_.push_back({.light = &batch.scene.stored, .L = L, .Cl = Cl, .toward = L, .far = L});
 }
 
 void Lights::tell(Batch& batch, const BoundShader& light, std::vector<TmValue>& params) const {
@@ -141,25 +141,14 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
       for (int i = 0; i < g.count; ++i) {
-        points.density[i] *= static_cast<float>(n);
-        points.meetDensity[i] *= static_cast<float>(n);
+        points.pdf[i] *= static_cast<float>(n);
+        points.meetPdf[i] *= static_cast<float>(n);
       }
-      radianceToSample(g, points.density);
+      radianceToSample(g, points.pdf);
     }
-    LightSample sample{&light,
-                       batch.arena.vec3(batch.tm.count),
-                       g.Cl,
-                       g.L,
-                       {light.can(TM_LIGHT_SOLAR), s, n},
-                       nullptr,
-                       s,
-                       points.meetDensity,
-                       tally,
-                       g.L,
-                       g.params};
-    if (const int k = light.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) sample.nondiffuse = g.params[k].c[0];
-    if (const int k = light.bound->output(TM_ROLE_NONSPECULAR); k >= 0) sample.nonspecular = g.params[k].c[0];
-    normalizeAll(g.count, view(g.L), sample.L);
+    LightSample sample = sampleOf(batch, light, g, {light.can(TM_LIGHT_SOLAR), s, n}, s);
+    sample.pdf = points.meetPdf;
+    sample.tally = tally;
     if (light.shadows && batch.scene.services) {
       if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
       sample.pending = batch.arena.bytes(g.count);
@@ -227,23 +216,23 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
   const EmitterPoints points = emitterPoints(batch, light, g);
   if (!meetLight(batch, light, g, lobe, points)) return;
   uint8_t* met = batch.arena.bytes(g.count);
-  for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.density[i] > 0 && points.density[i] > 0;
+  for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.pdf[i] > 0 && points.pdf[i] > 0;
   if (std::none_of(met, met + g.count, [](uint8_t m) { return m != 0; })) return;
   g.active = met;
   if (!runWithExtent(batch, light, g)) return;
   const auto own = static_cast<float>(samplesOf(light, batch)), drawn = static_cast<float>(lobe.samples);
   for (int i = 0; i < g.count; ++i) {
     if (!met[i]) continue;
-    const float a = own * points.density[i], b = drawn * lobe.density[i];
-    points.density[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
+    const float a = own * points.pdf[i], b = drawn * lobe.pdf[i];
+    points.pdf[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
   }
   const float reach = light.can(TM_LIGHT_AREA) ? batch.scene.services->emitterReach(light.index) : 0;
-  addMet(batch, light, g, reach == 0 ? g.L : beforeEmitter(batch, g, reach), points.density, lobe, Cl);
+  addMet(batch, light, g, reach == 0 ? g.L : beforeEmitter(batch, g, reach), points.pdf, lobe, Cl);
 }
 
-void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* density,
+void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
                     const LobeDirections& lobe, TmVec3 Cl) {
-  radianceToSample(g, density);
+  radianceToSample(g, pdf);
   // The light's own samples have question numbers below the limit of their number.
   LightSample sample{&light,
                      g.L,

@@ -1,6 +1,6 @@
-// The lights of one chunk of points. They are evaluated when a shader first asks, then kept for its other questions.
-// Shadow rays are traced later, sample by sample, for the points on whose side of the surface the sample turns out to
-// be.
+// The lights of one sub-batch of points. They are evaluated when a shader first asks, then kept for its other
+// questions. Shadow rays are traced later, sample by sample, for the points on whose side of the surface the sample
+// turns out to be.
 #pragma once
 #include <deque>
 #include <map>
@@ -37,27 +37,27 @@ struct ShadowTally {
 
 /// The clusters into which each point divides the lights of a set: those of point i are first[i] to first[i + 1].
 struct LightCuts {
-  std::vector<LampCluster> clusters;
+  std::vector<LightCluster> clusters;
   std::vector<uint32_t> first;
-  std::span<const LampCluster> at(int i) const {
+  std::span<const LightCluster> at(int i) const {
     const size_t k = static_cast<size_t>(i);
     return std::span(clusters).subspan(first[k], first[k + 1] - first[k]);
   }
 };
 
 struct LightSample {
-  const BoundLight* light;  ///< If it is drawn from a set: the set's first light, which differs in numbers alone.
-  TmVec3 L;                 ///< Unit vectors from P to the light.
-  TmVec3 Cl;                ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
-  TmVec3 toward;            ///< L at full length, the way of a shadow ray.
-  ShadowRays rays;          ///< The sample's shadow rays.
-  uint8_t* pending;         ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
-  int question = 0;         ///< The number of its shadow rays among those of the light (ray_answers.h).
-  const float* density = nullptr;   ///< The density over solid angle of all samples of the light together, as the
-                                    ///< power heuristic counts them, where along() finds it too; else 0. Null if it is
-                                    ///< 0 everywhere.
-  ShadowTally* tally = nullptr;     ///< Null if every shadow ray is traced.
-  TmVec3 far{};                     ///< L at full length, for points and their neighbours.
+  const BoundLight* light;       ///< If it is drawn from a set: the set's first light, which differs in numbers alone.
+  TmVec3 L;                      ///< Unit vectors from P to the light.
+  TmVec3 Cl;                     ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
+  TmVec3 toward;                 ///< L at full length, the way of a shadow ray.
+  ShadowRays rays{};             ///< The sample's shadow rays.
+  uint8_t* pending = nullptr;    ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
+  int question = 0;              ///< The number of its shadow rays among those of the light (ray_answers.h).
+  const float* pdf = nullptr;    ///< The density over solid angle of all samples of the light together, as the
+                                 ///< power heuristic counts them, where along() finds it too; else 0. Null if it is
+                                 ///< 0 everywhere.
+  ShadowTally* tally = nullptr;  ///< Null if every shadow ray is traced.
+  TmVec3 far{};                  ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
   bool drawn = false;  ///< Each point has drawn a light of its own; where it has none, Cl is 0.
@@ -102,8 +102,8 @@ class Lights {
   void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
   void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds what lights send along a lobe's directions to where they have been met. `density`: of the samples, weighted.
-  void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* density,
+  /// Adds what lights send along a lobe's directions to where they have been met. `pdf`: of the samples, weighted.
+  void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
               const LobeDirections& lobe, TmVec3 Cl);
   // drawn_lights.cpp
   const LightSets* setsOf(const Batch& batch) const;  ///< Null if all lights run.

@@ -23,11 +23,11 @@ SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   return {hashCombine(object.name, __builtin_bit_cast(uint32_t, g->u[i]), __builtin_bit_cast(uint32_t, g->v[i])), 0};
 }
 
-void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,
+void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* pdf, int32_t sample, int32_t samples,
                 TmVec3 Cl) {
   Batch& batch = batchOf(host);
   forActive(g, [&](int i) { set(Cl, i, vec3(0.0f)); });
-  batch.lights.along(batch, {L, density, sample, samples}, Cl);
+  batch.lights.along(batch, {L, pdf, sample, samples}, Cl);
   Primary(batch, g).spread(Cl);
 }
 
@@ -60,7 +60,7 @@ struct BlinnLobe {
     return 2 * dot(V, H) * H - V;
   }
   /// Returns the density over solid angle; 0 if the direction is never drawn.
-  float density(const vec3& L) const {
+  float pdf(const vec3& L) const {
     const vec3 H = normalizeOr(L + V, vec3(0.0f));
     const float cosine = dot(N, H), along = dot(V, H);
     return cosine > 0 && along > 0 ? (exponent + 1) / (2 * kPi) * std::pow(cosine, exponent) / (4 * along) : 0.0f;
@@ -112,21 +112,21 @@ class Highlight {
       chooseSide(view(sample.L));
       batch_.lights.shadow(batch_, sample, side_);
       setShares(g_->count, side_, sample.nonspecular, share_);
-      if (sample.density) weighAgainstLobe(sample);
+      if (sample.pdf) weighAgainstLobe(sample);
       addHighlight(g_->count, share_, view(N_), view(V_), exponent_, view(sample.L), view(sample.Cl), out_);
     }
   }
 
   void addLobeSamples() {
     const int n = g_->count;
-    float *xi0 = batch_.arena.floats(n), *xi1 = batch_.arena.floats(n), *density = batch_.arena.floats(n);
+    float *xi0 = batch_.arena.floats(n), *xi1 = batch_.arena.floats(n), *pdf = batch_.arena.floats(n);
     const TmVec3 L = batch_.arena.vec3(n), Cl = batch_.arena.vec3(n);
     for (int k = 0; k < drawn_; ++k) {
       stratified(&batch_, g_, k, drawn_, xi0, xi1);
       forActive(g_, [&](int i) { set(L, i, lobeAt(i).draw({xi0[i], xi1[i]})); });
       chooseSide(view(L));
-      forActive(g_, [&](int i) { density[i] = side_[i] ? lobeAt(i).density(get(L, i)) : 0.0f; });
-      lightAlong(&batch_, g_, view(L), density, k, drawn_, Cl);
+      forActive(g_, [&](int i) { pdf[i] = side_[i] ? lobeAt(i).pdf(get(L, i)) : 0.0f; });
+      lightAlong(&batch_, g_, view(L), pdf, k, drawn_, Cl);
       setShares(n, side_, nullptr, share_);
       addHighlight(n, share_, view(N_), view(V_), exponent_, view(L), view(Cl), out_);
     }
@@ -203,8 +203,8 @@ class Highlight {
   /// Weights a light's sample against the lobe's own, which may find the light too (multiple importance sampling).
   void weighAgainstLobe(const LightSample& sample) {
     forActive(g_, [&](int i) {
-      if (!side_[i] || !(sample.density[i] > 0)) return;
-      const float other = static_cast<float>(drawn_) * lobeAt(i).density(get(sample.L, i)) / sample.density[i];
+      if (!side_[i] || !(sample.pdf[i] > 0)) return;
+      const float other = static_cast<float>(drawn_) * lobeAt(i).pdf(get(sample.L, i)) / sample.pdf[i];
       share_[i] /= 1 + other * other;
     });
   }
@@ -221,7 +221,7 @@ class Highlight {
 
 void specular(void* host, const TmGrid* g, TmConstVec3 N, TmConstVec3 V, const float* roughness, TmVec3 out) {
   Batch& batch = batchOf(host);
-  if (batch.points && !batch.context.highlightsLamps(batch.points->group()))
+  if (batch.points && !batch.context.hasHighlights(batch.points->group()))
     return forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
   const Primary primary(batch, g);
   Highlight highlight(batch, primary.grid(), N, V, roughness, out);
@@ -236,8 +236,8 @@ void lightDensity(void* host, const TmGrid* all, int32_t light, float* out) {
   const Primary primary(batch, all);
   const TmGrid* g = primary.grid();
   const LightSample* sample = lightNumbered(batch, light);
-  const float* density = sample ? sample->density : nullptr;
-  forActive(g, [&](int i) { out[i] = density ? density[i] : 0.0f; });
+  const float* pdf = sample ? sample->pdf : nullptr;
+  forActive(g, [&](int i) { out[i] = pdf ? pdf[i] : 0.0f; });
   primary.spread(out);
 }
 

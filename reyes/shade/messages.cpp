@@ -118,8 +118,8 @@ int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValu
                                                     {"visibility:transmission", a.visibility.transmission},
                                                     {"visibility:photon", a.visibility.photon}};
   if (const auto it = visible.find(name); it != visible.end()) return number(it->second);
-  const auto it = a.user.find(std::string(name));
-  return it == a.user.end() ? 0 : tell(batch, it->second, type, out);
+  const Param* param = findParam(a.user, std::string(name));
+  return param ? tell(batch, *param, type, out) : 0;
 }
 
 int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
@@ -133,8 +133,8 @@ int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* 
   if (name == "CropWindow") return numbers({o.cropWindow.begin(), o.cropWindow.end()});
   if (name == "PixelSamples") return numbers({static_cast<float>(o.xSamples), static_cast<float>(o.ySamples)});
   if (name == "Frame") return numbers({static_cast<float>(o.frame)});
-  const auto it = o.user.find(std::string(name));
-  return it == o.user.end() ? 0 : tell(batch, it->second, type, out);
+  const Param* param = findParam(o.user, std::string(name));
+  return param ? tell(batch, *param, type, out) : 0;
 }
 
 int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {

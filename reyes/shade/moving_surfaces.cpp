@@ -3,7 +3,6 @@
 #include <mutex>
 
 #include "reyes/base/search_path.h"
-#include "reyes/displacement_outputs.h"
 #include "reyes/scene_changes.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shader_registry.h"
@@ -19,7 +18,7 @@ class MovingSurfaces {
 
   void prepare(Attributes& a) {
     displace(a);
-    for (const Param& output : outputsOf(a.displacement)) a.user[std::string(kOfDisplacement) + output.name] = output;
+    a.displacementOutputs = outputsOf(a.displacement);
   }
 
   /// Tells whether such attributes change.

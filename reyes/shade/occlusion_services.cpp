@@ -44,7 +44,7 @@ const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConst
   const bool plain = batch.context.kind == RayKind::Camera && !o.uniform && o.coneAngle >= kWholeCone &&
                      o.sampleBase == 0 && !o.environment && !out.environmentColor.x && !out.environmentDirection.x;
   ShadeContext traced = batch.context;
-  traced.rehearsal = false;  // nothing is traced then
+  traced.purpose = Purpose::Picture;  // a rehearsal traces nothing
   if (!plain || (out.radiance.x && !rays.label.empty()) ||
       !batch.scene.services->tracesFrom(*batch.points, rays, traced))
     return g->active;
@@ -119,7 +119,7 @@ bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N
     cone.aim(P, N, query.number);
     batch.scene.services->trace(*batch.points, traced.active, cone.origin(), cone.direction(), query, batch.context,
                                 result);
-    for (int i = 0; i < traced.count; ++i) misses[i] = traced.active[i] && !(result.distance[i] < kFarAway);
+    for (int i = 0; i < traced.count; ++i) misses[i] = traced.active[i] && !(result.distance[i] < kRiInfinity);
     if (sky) sky->lookUp(batch, open, cone.direction());
     forActive(&traced, [&](int i) {
       const vec3 light = share * (misses[i] && sky ? get(sky->color, i) : vec3(0));

@@ -15,16 +15,16 @@ namespace {
 /// Returns the lookup of a picture. Option "texture" "width" scales all filters; "filter" is that of lookups that name
 /// none.
 TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& o, TmVec3 out) {
-  const auto& options = batch.scene.scene.options.user;
-  const auto width = options.find("texture:width"), filter = options.find("texture:filter");
-  const float scale = width != options.end() ? std::max(0.0f, width->second.number(1)) : 1.0f;
-  const bool names = filter != options.end() && !filter->second.strings.empty();
+  const UserParams& options = batch.scene.scene.options.user;
+  const Param *width = findParam(options, "texture:width"), *filter = findParam(options, "texture:filter");
+  const float scale = width ? std::max(0.0f, width->number(1)) : 1.0f;
+  const bool names = filter && !filter->strings.empty();
   TextureQuery q;
   q.name = name;
   q.channel = o.channel;
   q.channels = out.y ? 3 : 1;
   q.fill = o.fill;
-  q.filter = !o.filter && names ? filter->second.strings[0].c_str() : o.filter;
+  q.filter = !o.filter && names ? filter->strings[0].c_str() : o.filter;
   const float level = scale * std::exp2(-o.mipBias);
   q.sWidth = level * o.swidth;
   q.tWidth = level * o.twidth;

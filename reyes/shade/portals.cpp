@@ -20,7 +20,7 @@ float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
 }
 
 /// Returns the density over solid angle of positions that are even on the portal.
-float densityOf(const Portal& portal, const vec3& P, const vec3& L) {
+float pdfOf(const Portal& portal, const vec3& P, const vec3& L) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 to = corner - P;
   const float along = dot(normal, L), area = glm::length(normal);
@@ -67,13 +67,13 @@ vec3 Portals::sample(const vec3& P, const vec3& N, vec2 xi) const {
   return normalizeOr(p.corner + xi.x * p.u + xi.y * p.v - P, normalizeOr(p.normal, p.normal));
 }
 
-float Portals::density(const vec3& P, const vec3& N, const vec3& L) const {
+float Portals::pdf(const vec3& P, const vec3& N, const vec3& L) const {
   const float sum = weights(P, N);
   if (!(sum > 0)) return 0;
-  float density = 0;
+  float pdf = 0;
   for (const Portal& p : portals_)
-    if (const float weight = weightOf(p, P, N); weight > 0) density += weight * densityOf(p, P, L);
-  return density / sum;
+    if (const float weight = weightOf(p, P, N); weight > 0) pdf += weight * pdfOf(p, P, L);
+  return pdf / sum;
 }
 
 }  // namespace tomales

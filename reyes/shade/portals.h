@@ -20,7 +20,7 @@ class Portals {
   /// Returns a unit direction to a position on one of them. share(P, N) must be greater than 0.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi) const;
   /// Returns the density of sample() over solid angle; 0 for directions past every portal.
-  float density(const vec3& P, const vec3& N, const vec3& L) const;
+  float pdf(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:
   float weights(const vec3& P, const vec3& N) const;

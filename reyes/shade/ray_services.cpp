@@ -44,7 +44,7 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   if (!distance) options.samples = raysOfBranch(options.samples, 1, batch.context);  // of distances, the least counts
   forActive(all, [&](int i) {
     if (color.x) set(color, i, vec3(0));
-    if (distance) distance[i] = kFarAway;
+    if (distance) distance[i] = kRiInfinity;
   });
   if (!traces(batch)) return;
   Cone cone(batch, g, options);
@@ -57,8 +57,8 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
     result.opacity = batch.arena.vec3(g->count);
   }
   // Diffuse rays bring no sky, as they bring no area lights: diffuse() has asked for that light.
-  if (color.x && query.kind == RayKind::Specular && query.lampsGlow &&
-      batch.context.mirrorsLamps(batch.points->group()) && query.maxDistance >= kFarAway)
+  if (color.x && query.kind == RayKind::Specular && query.seesAreaLights &&
+      batch.context.seesLightsInMirrors(batch.points->group()) && query.maxDistance >= kRiInfinity)
     result.leaves = batch.arena.bytes(g->count);
   for (int ray = 0; ray < options.samples; ++ray, ++query.number) {
     const Batch::Scratch scratch(batch);
@@ -137,9 +137,9 @@ int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConst
     crossVolumes(batch, g, cone.origin(), cone.direction(), result.distance, gathered.color, gathered.opacity);
   float *length = batch.arena.floats(g->count), *effective = batch.arena.floats(g->count);
   forActive(g, [&](int i) {
-    hit[i] = result.distance[i] < kFarAway;
-    length[i] = std::min(result.distance[i], kFarAway);
-    effective[i] = result.effective ? std::min(result.effective[i], kFarAway) : kFarAway;
+    hit[i] = result.distance[i] < kRiInfinity;
+    length[i] = std::min(result.distance[i], kRiInfinity);
+    effective[i] = result.effective ? std::min(result.effective[i], kRiInfinity) : kRiInfinity;
   });
   gathered.tellVolumes(g, hit, {outputs, static_cast<size_t>(outputCount)});
   primary.spread(hit);

@@ -43,7 +43,7 @@ RayQuery rayQuery(const TmRayOptions& o, RayKind kind) {
   q.opacityThreshold = o.opacityThreshold;
   q.count = std::max(1, o.drawn) * o.samples;
   q.number = o.number * o.samples;
-  q.lampsGlow = o.passLamps == 0;
+  q.seesAreaLights = o.passLamps == 0;
   q.importance = std::clamp(o.importance, 0.0f, 1.0f);
   return q;
 }

@@ -4,8 +4,6 @@
 
 namespace tomales {
 
-constexpr float kFarAway = 1e30f;  ///< RI_INFINITY: the distance to nothing.
-
 /// Returns the options of trace(), whose directions the caller may draw itself, and of the other services.
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
 TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);

@@ -114,7 +114,7 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 
 void print(void* host, const TmGrid*, const char* text) {
   const ShadeContext& context = batchOf(host).context;
-  if (context.rehearsal || context.sketch) return;
+  if (context.purpose != Purpose::Picture) return;
   std::string line = text;
   if (!line.ends_with('\n')) line += '\n';
   std::fputs(line.c_str(), stderr);

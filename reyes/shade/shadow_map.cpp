@@ -66,19 +66,19 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
   const int z = camera->depth, back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
   const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
   map->first_.push_back(0);
-  const float* sample = values.data();
+  const float* channels = values.data();
   for (const uint32_t count : counts) {
     vec3 clear(1.0f);
-    for (uint32_t s = 0; s < count; ++s, sample += shape.channels.size()) {
-      Step step{sample[z], sample[back], clear, clear};
+    for (uint32_t s = 0; s < count; ++s, channels += shape.channels.size()) {
+      DeepSample sample{channels[z], channels[back], clear, clear};
       for (int k = 0; k < 3; ++k) {
         const int c = opacity[k] < 0 ? alpha : opacity[k];
-        if (c >= 0) step.after[k] *= 1 - sample[c];
+        if (c >= 0) sample.after[k] *= 1 - channels[c];
       }
-      clear = step.after;
-      map->steps_.push_back(step);
+      clear = sample.after;
+      map->samples_.push_back(sample);
     }
-    map->first_.push_back(map->steps_.size());
+    map->first_.push_back(map->samples_.size());
   }
   return map;
 }
@@ -88,10 +88,10 @@ vec3 ShadowMap::blocked(int x, int y, float z) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return vec3(0.0f);
   const size_t texel = static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
   if (!depth_.empty()) return vec3(depth_[texel] < z ? 1.0f : 0.0f);
-  const Step *begin = steps_.data() + first_[texel], *end = steps_.data() + first_[texel + 1];
-  const Step* beyond = std::upper_bound(begin, end, z, [](float at, const Step& s) { return at < s.z; });
+  const DeepSample *begin = samples_.data() + first_[texel], *end = samples_.data() + first_[texel + 1];
+  const DeepSample* beyond = std::upper_bound(begin, end, z, [](float at, const DeepSample& s) { return at < s.z; });
   if (beyond == begin) return vec3(0.0f);
-  const Step& s = beyond[-1];
+  const DeepSample& s = beyond[-1];
   const float t = z >= s.zBack ? 1.0f : (z - s.z) / (s.zBack - s.z);
   return vec3(1.0f) - glm::mix(s.before, s.after, t);
 }

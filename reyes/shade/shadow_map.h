@@ -38,7 +38,7 @@ class ShadowMap {
   vec3 shadow(const ShadowReceiver& receiver, const ShadowLookup& lookup) const;
 
  private:
-  struct Step {
+  struct DeepSample {
     float z, zBack;
     vec3 before, after;  ///< The share of light that arrives at z, and at zBack.
   };
@@ -52,8 +52,8 @@ class ShadowMap {
   bool perspective_ = false;
   vec2 spread_{1.0f};          ///< The width and height in texels of the region whose depths a texel holds.
   std::vector<float> depth_;   ///< Empty for a deep map.
-  std::vector<size_t> first_;  ///< The index of each texel's first step; one more than there are texels.
-  std::vector<Step> steps_;
+  std::vector<size_t> first_;  ///< The index of each texel's first sample; one more than there are texels.
+  std::vector<DeepSample> samples_;
 };
 
 class ShadowMaps {

@@ -15,7 +15,7 @@ float solidAngleAt(float t) { return 2 * kPi * kPi * std::sin(kPi * t); }
 
 bool inAir(const vec3& N) { return N == vec3(0.0f); }
 
-float cosineDensity(const vec3& N, const vec3& L) {
+float cosinePdf(const vec3& N, const vec3& L) {
   if (inAir(N)) return 1 / (4 * kPi);
   return dot(N, L) > 0 ? std::max(dot(N, L), kLeastCosine) / kPi : 0.0f;
 }
@@ -71,17 +71,17 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
   if (!read || !(rows_.total() > 0)) row_.clear();
 }
 
-vec3 Sky::sample(const vec3& P, const vec3& N, vec2 xi, float& density) const {
+vec3 Sky::sample(const vec3& P, const vec3& N, vec2 xi, float& pdf) const {
   const float share = portals_.share(P, N);
   const vec3 L =
       xi.x < share ? portals_.sample(P, N, {xi.x / share, xi.y}) : openSample(N, {(xi.x - share) / (1 - share), xi.y});
-  density = this->density(P, N, L);
+  pdf = this->pdf(P, N, L);
   return L;
 }
 
-float Sky::density(const vec3& P, const vec3& N, const vec3& L) const {
-  const float share = portals_.share(P, N), open = (1 - share) * openDensity(N, L);
-  return share > 0 ? share * portals_.density(P, N, L) + open : open;
+float Sky::pdf(const vec3& P, const vec3& N, const vec3& L) const {
+  const float share = portals_.share(P, N), open = (1 - share) * openPdf(N, L);
+  return share > 0 ? share * portals_.pdf(P, N, L) + open : open;
 }
 
 vec3 Sky::openSample(const vec3& N, vec2 xi) const {
@@ -94,12 +94,12 @@ vec3 Sky::openSample(const vec3& N, vec2 xi) const {
   return normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
 }
 
-float Sky::openDensity(const vec3& N, const vec3& L) const {
-  const float byCosine = cosineDensity(N, L);
-  return row_.empty() ? byCosine : kPictureShare * pictureDensity(L) + (1 - kPictureShare) * byCosine;
+float Sky::openPdf(const vec3& N, const vec3& L) const {
+  const float byCosine = cosinePdf(N, L);
+  return row_.empty() ? byCosine : kPictureShare * picturePdf(L) + (1 - kPictureShare) * byCosine;
 }
 
-float Sky::pictureDensity(const vec3& L) const {
+float Sky::picturePdf(const vec3& L) const {
   const vec2 st = latLong(worldFromCurrent_ * L);
   const auto cell = [](float x, int count) {
     return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1));

@@ -37,13 +37,13 @@ class Sky {
 
   /// Returns a unit direction from which to light a point P with unit normal N, and its density over solid angle. For
   /// an N of 0, in the air, directions are even.
-  vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& density) const;
-  float density(const vec3& P, const vec3& N, const vec3& L) const;
+  vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& pdf) const;
+  float pdf(const vec3& P, const vec3& N, const vec3& L) const;
 
  private:
   vec3 openSample(const vec3& N, vec2 xi) const;
-  float openDensity(const vec3& N, const vec3& L) const;
-  float pictureDensity(const vec3& L) const;
+  float openPdf(const vec3& N, const vec3& L) const;
+  float picturePdf(const vec3& L) const;
 
   Distribution rows_;
   std::vector<Distribution> row_;  ///< The cells of each row; empty without a picture.

@@ -7,7 +7,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kChunk = 256;  // points: a few hundred kB of light samples, so a chunk stays in the second-level cache
+/// Points: their light samples take a few hundred kB, which stay in the second-level cache.
+constexpr int kSubBatch = 256;
 
 /// Replaces bad results: by the substitute if the shader has thrown; else points that are not finite become black.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
@@ -66,15 +67,15 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   if (!variables.empty()) allocateVariables(variables, count, out);
 
   const ShaderTimer timer(impl_->stats, shader, count);
-  ShadePoints chunk(points.group(), points.primvarFloats(), points.hasSteps());
-  chunk.reserve(std::min(count, kChunk));
-  for (int begin = 0; begin < count; begin += kChunk) {
-    chunk.assign(points, begin, std::min(begin + kChunk, count));
+  ShadePoints subBatch(points.group(), points.primvarFloats(), points.hasSteps());
+  subBatch.reserve(std::min(count, kSubBatch));
+  for (int begin = 0; begin < count; begin += kSubBatch) {
+    subBatch.assign(points, begin, std::min(begin + kSubBatch, count));
     ArenaLease arena;
-    ShadeContext chunkContext = context;
-    chunkContext.chunk = begin / kChunk;
-    Batch batch(*impl_, group, chunkContext, *arena);
-    batch.setPoints(chunk, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out, begin);
+    ShadeContext subContext = context;
+    subContext.subBatch = begin / kSubBatch;
+    Batch batch(*impl_, group, subContext, *arena);
+    batch.setPoints(subBatch, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out, begin);
     batch.openOutputs(variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
     batch.closeOutputs(variables, out, begin);

@@ -7,8 +7,6 @@
 namespace tomales {
 namespace {
 
-constexpr float kFar = 1e30f;
-
 const BoundShader* volumeOf(const BoundGroup& group, bool inside) {
   return (inside ? group.interior : group.exterior).get();
 }
@@ -59,7 +57,7 @@ void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3
     if (!volume) continue;
     std::vector<int> which;
     forActive(g, [&](int i) {
-      if (distance[i] < kFar && (dot(get(direction, i), get(g->Ng, i)) < 0) == inside) which.push_back(i);
+      if (distance[i] < kRiInfinity && (dot(get(direction, i), get(g->Ng, i)) < 0) == inside) which.push_back(i);
     });
     if (!which.empty()) cross(batch, *volume, which, origin, direction, distance, color, opacity);
   }
@@ -69,17 +67,17 @@ namespace {
 
 void crossed(void* host, const TmGrid* g, int32_t byAmount, float* distance, float* amount, float* density) {
   const Batch& batch = batchOf(host);
-  const std::span<const DensityWay> ways = batch.context.ways;
+  const std::span<const DensityAlongRay> ways = batch.context.ways;
   forActive(g, [&](int i) {
     if (ways.empty() || !batch.points) {
       (byAmount ? distance : amount)[i] = (byAmount ? amount : distance)[i];
       density[i] = 1;
       return;
     }
-    const DensityWay& way = ways[static_cast<size_t>(i % batch.points->count())];  // neighbours follow the points
-    const DensityWay::Place place = byAmount ? way.atAmount(amount[i]) : way.atDistance(distance[i]);
+    const DensityAlongRay& way = ways[static_cast<size_t>(i % batch.points->count())];  // neighbours follow the points
+    const DensityAlongRay::Place place = byAmount ? way.atColumnDensity(amount[i]) : way.atDistance(distance[i]);
     distance[i] = place.distance;
-    amount[i] = place.amount;
+    amount[i] = place.columnDensity;
     density[i] = place.density;
   });
 }

@@ -120,10 +120,10 @@ void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from,
   }
   const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
   const bool still = object_.keyTimes.size() == 1;
-  const float reach = size.u.length + size.v.length;
-  if (!(reach > 0.25f * from.reach)) from = {reach, depth};
-  if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * reach) {
-    bare = size.probes.grown(reach);
+  const float edgeLengths = size.u.length + size.v.length;
+  if (!(edgeLengths > 0.25f * from.edgeLengths)) from = {edgeLengths, depth};
+  if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * edgeLengths) {
+    bare = size.probes.grown(edgeLengths);
     if (view_.cannotBeSeen(bare)) return;
   }
   const Bound3 bound = bare.grown(object_.displacementBound);
@@ -159,7 +159,7 @@ void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from,
       out.push_back(piece(false));
   } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && visits_.grids(nu, nv) >= kGridsOfCoarse && !crossesEye &&
              view_.isOfOneScale(bare) && visits_.isLargelySeen(view_.rasterOf(bound, reach_px)) &&
-             glm::length(bare.size()) <= kSlack * reach) {
+             glm::length(bare.size()) <= kSlack * edgeLengths) {
     // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
     out.push_back(piece(true));
   } else if (depth - from.depth >= kVainHalvings && !crossesEye) {

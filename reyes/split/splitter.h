@@ -47,7 +47,7 @@ class Splitter {
 
   /// The last piece around a piece that was four times as long.
   struct Shrunk {
-    float reach = HUGE_VALF;
+    float edgeLengths = HUGE_VALF;
     int depth = 0;
   };
 

@@ -123,9 +123,9 @@ Json icfInfo(const std::string& file, Log& log) {
     for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
-                      {"error_function", infoOf(c.plan.cache.errorFunction).name},
-                      {"kappa", c.plan.cache.kappa},
-                      {"samples", c.plan.gather.samples},
+                      {"error_function", infoOf(c.key.cache.errorFunction).name},
+                      {"kappa", c.key.cache.kappa},
+                      {"samples", c.key.gather.samples},
                       {"mean_irradiance_over_pi", {mean.x, mean.y, mean.z}}});
   }
   return {{"file", file},

@@ -110,7 +110,7 @@ Json pluginInfo(const std::string& file, Log& log) {
     return shaders.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   std::string fate = "is not a shader plugin of this version";
-  const std::string shaders = madeApart(describe, kMostSeconds, fate).value_or("");
+  const std::string shaders = runInFork(describe, kMostSeconds, fate).value_or("");
   if (!shaders.empty()) return {{"file", file}, {"kind", "shaders"}, {"shaders", Json::parse(shaders)}};
   log.report(Severity::Error, "plugin-read", {std::make_shared<std::string>(file), 0}, fate);
   return {};

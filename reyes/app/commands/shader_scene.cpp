@@ -47,13 +47,13 @@ class EmptySpace final : public ShadeServices {
       const float cosine = glm::normalize(way).z;
       set(out.P, i, P);
       set(out.N, i, vec3(0, 0, 1));
-      out.density[i] = cosine > 0 ? glm::dot(way, way) / cosine : 0.0f;
-      out.meetDensity[i] = 0;
+      out.pdf[i] = cosine > 0 ? glm::dot(way, way) / cosine : 0.0f;
+      out.meetPdf[i] = 0;
     }
     return true;
   }
   void meetEmitter(int, int count, TmConstVec3, TmConstVec3, const EmitterPoints& out) const override {
-    std::fill_n(out.density, count, 0.0f);
+    std::fill_n(out.pdf, count, 0.0f);
   }
   float emitterReach(int) const override { return 0; }
   float emitterArea(int) const override { return 1; /* of the square */ }

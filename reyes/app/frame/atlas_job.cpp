@@ -78,7 +78,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
 
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    const AtlasProgress& progress, KeptWork* kept, Stats& stats,
+                                                    const AtlasProgress& progress, Checkpoint* kept, Stats& stats,
                                                     Log& log) {
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);

@@ -18,7 +18,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 /// reported.
 std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
                                                     const ShadingSystem& shading, const RenderSettings& settings,
-                                                    const AtlasProgress& progress, KeptWork* kept, Stats& stats,
+                                                    const AtlasProgress& progress, Checkpoint* kept, Stats& stats,
                                                     Log& log);
 
 /// The pass that one of several processes does for the atlas that they make together.

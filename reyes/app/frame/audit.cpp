@@ -26,25 +26,26 @@ std::string percentOf(const ErrorEstimate& e) {
 }  // namespace
 
 Audit::Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-             const AuditPlan& plan, const std::atomic<bool>& cancelled)
+             const AuditSettings& settings, const std::atomic<bool>& cancelled)
     : scene_(scene),
       shading_(shading),
-      plan_(plan),
-      pixels_(chooseAuditPixels(layout, tiles, plan.pixels, plan.seed, cancelled)),
+      settings_(settings),
+      pixels_(chooseAuditPixels(layout, tiles, settings.pixels, settings.seed, cancelled)),
       samplesPerPixel_(layout.samplesPerPixel),
       cancelled_(cancelled),
-      smudges_(layout, tiles, scene, shading,
-               {std::max(plan.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), plan.smudgeSizes, plan.seed,
-                kTimesLightSamplesOfBlocks * std::max({1, plan.lightSamples, shading.mostAreaSamples()})},
-               cancelled) {}
+      smudges_(
+          layout, tiles, scene, shading,
+          {std::max(settings.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), settings.smudgeSizes,
+           settings.seed, kTimesLightSamplesOfBlocks * std::max({1, settings.lightSamples, shading.mostAreaSamples()})},
+          cancelled) {}
 
 AuditReport Audit::of(const ShadeContext& context) {
   AuditReport out;
   picture_ = shade(context);
   if (context.direct) out.lightSamples = findDirect(context);
-  if (plan_.indirect) out.paths = 2 * findIndirect(context);
+  if (settings_.indirect) out.paths = 2 * findIndirect(context);
   if (context.direct) out.direct = estimateError(errorsOf({&direct_}));
-  if (plan_.indirect) out.indirect = estimateError(errorsOf({&indirect_}));
+  if (settings_.indirect) out.indirect = estimateError(errorsOf({&indirect_}));
   const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_});
   out.pixels = errors.size();
   out.picture = estimateError(errors);
@@ -54,7 +55,7 @@ AuditReport Audit::of(const ShadeContext& context) {
 }
 
 std::vector<SampledColor> Audit::shade(ShadeContext context) const {
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   return shadeAuditPixels(pixels_, samplesPerPixel_, scene_, shading_, context);
 }
 
@@ -85,7 +86,7 @@ int Audit::findDirect(ShadeContext context) {
   context.indirect = false;
   direct_.picture = colors(context);
   context.lightSamples =
-      kTimesLightSamples * std::max({1, context.lightSamples, plan_.lightSamples, shading_.mostAreaSamples()});
+      kTimesLightSamples * std::max({1, context.lightSamples, settings_.lightSamples, shading_.mostAreaSamples()});
   if (direct_.rays == 0) addSets(direct_, context, 1);
   return context.lightSamples;
 }
@@ -108,7 +109,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
   context.auditPaths = rays;
   const float share = static_cast<float>(rays) / static_cast<float>(light.rays + rays);
   for (uint32_t set = 0; set < 2; ++set) {
-    context.seed = hashCombine(plan_.seed, randomStream("sets"), 2 * static_cast<uint32_t>(light.rays) + set);
+    context.seed = hashCombine(settings_.seed, randomStream("sets"), 2 * static_cast<uint32_t>(light.rays) + set);
     std::vector<vec3>& mean = light.sets[set];
     mean.resize(pixels_.size(), vec3(0.0f));
     const std::vector<vec3> more = colors(context);

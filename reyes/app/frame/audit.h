@@ -14,12 +14,12 @@
 
 namespace tomales {
 
-struct AuditPlan {
+struct AuditSettings {
   size_t pixels = 300;
   uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
   bool indirect = true;  ///< The frame has indirect light.
   int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
-  size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgePlan::sizes.
+  size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgeSettings::sizes.
 };
 
 struct AuditReport {
@@ -55,7 +55,7 @@ struct FoundLight {
 class Audit {
  public:
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-        const AuditPlan& plan, const std::atomic<bool>& cancelled);
+        const AuditSettings& settings, const std::atomic<bool>& cancelled);
 
   /// Returns the errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives
   /// the picture's colours.
@@ -75,7 +75,7 @@ class Audit {
 
   const Scene& scene_;
   const ShadingSystem& shading_;
-  const AuditPlan plan_;
+  const AuditSettings settings_;
   const std::vector<AuditPixel> pixels_;
   const int samplesPerPixel_;
   const std::atomic<bool>& cancelled_;

@@ -58,12 +58,13 @@ struct SmudgeAudit::Blocks {
 };
 
 SmudgeAudit::SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
-                         const ShadingSystem& shading, const SmudgePlan& plan, const std::atomic<bool>& cancelled)
+                         const ShadingSystem& shading, const SmudgeSettings& settings,
+                         const std::atomic<bool>& cancelled)
     : layout_(layout),
       tiles_(tiles),
       scene_(scene),
       shading_(shading),
-      plan_(plan),
+      settings_(settings),
       cancelled_(cancelled),
       across_((layout.padded.width() + kCellsAcross - 1) / kCellsAcross),
       covered_(static_cast<size_t>(across_) *
@@ -76,7 +77,7 @@ SmudgeAudit::SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const
     for (int y = tile->rect.y0; y < tile->rect.y1; ++y)
       for (int x = tile->rect.x0; x < tile->rect.x1; ++x) covered_[cellAt(x, y)] += tile->pixel(x, y).count > 0;
   });
-  for (size_t i = 0; i < std::min(plan.sizes, kSmudgeSizes.size()); ++i) add(kSmudgeSizes[i]);
+  for (size_t i = 0; i < std::min(settings.sizes, kSmudgeSizes.size()); ++i) add(kSmudgeSizes[i]);
 }
 
 SmudgeAudit::~SmudgeAudit() = default;
@@ -98,13 +99,13 @@ void SmudgeAudit::add(int size) {
           isCovered = covered_[cellAt(x, y)] == kPixelsOfBlock;
       const uint32_t place = hashCombine(static_cast<uint32_t>(left), static_cast<uint32_t>(top));
       if (isCovered)
-        order.emplace_back(hashCombine(place, plan_.seed, randomStream("bloc"), static_cast<uint32_t>(size)),
+        order.emplace_back(hashCombine(place, settings_.seed, randomStream("bloc"), static_cast<uint32_t>(size)),
                            ivec2(left, top));
     }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
     return std::tuple(a.first, a.second.y, a.second.x) < std::tuple(b.first, b.second.y, b.second.x);
   });
-  order.resize(std::min(order.size(), plan_.blocks));
+  order.resize(std::min(order.size(), settings_.blocks));
   if (order.size() < SmudgeEstimate::kFewestBlocks) return;
   Blocks blocks;
   blocks.size = size;
@@ -117,7 +118,7 @@ void SmudgeAudit::copyPixelsOf(Blocks& blocks) {
   std::vector<std::vector<Part>> byTile(layout_.tileCount());
   for (size_t b = 0; b < blocks.corners.size(); ++b)
     for (int cell = 0; cell < kPixelsOfBlock; ++cell) {
-      const ivec2 at = blocks.pixelOf(b, cell, plan_.seed);
+      const ivec2 at = blocks.pixelOf(b, cell, settings_.seed);
       const size_t t =
           static_cast<size_t>(layout_.rowOf(at.y) * layout_.columns + (at.x - layout_.padded.x0) / layout_.bucketWidth);
       const int half = blocks.isWhole() ? kBothHalves : halfOfCell(cell);
@@ -164,10 +165,10 @@ std::vector<float> SmudgeAudit::shade(const Blocks& blocks, const ShadeContext& 
 /// Adds `rays` to each of the two sets.
 void SmudgeAudit::addSets(Blocks& blocks, ShadeContext context, int rays) const {
   context.auditPaths = rays;
-  context.lightSamples = plan_.lightSamples;
+  context.lightSamples = settings_.lightSamples;
   const float share = static_cast<float>(rays) / static_cast<float>(blocks.rays + rays);
   for (uint32_t set = 0; set < 2; ++set) {
-    context.seed = hashCombine(plan_.seed, randomStream("even"), static_cast<uint32_t>(blocks.size),
+    context.seed = hashCombine(settings_.seed, randomStream("even"), static_cast<uint32_t>(blocks.size),
                                2 * static_cast<uint32_t>(blocks.rays) + set);
     std::vector<float>& mean = blocks.sets[set];
     const std::vector<float> more = shade(blocks, context, static_cast<int>(set));
@@ -208,7 +209,7 @@ SmudgeEstimate SmudgeAudit::estimate(const Blocks& blocks, const std::vector<flo
 std::vector<SmudgeEstimate> SmudgeAudit::of(const ShadeContext& given) {
   std::vector<SmudgeEstimate> out;
   ShadeContext context = given;
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   for (Blocks& blocks : sizes_) {
     const std::vector<float> picture = shade(blocks, context, kBothHalves);
     if (blocks.rays == 0) addSets(blocks, context, kFewestPathsOfBlocks);

@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-struct SmudgePlan {
+struct SmudgeSettings {
   size_t blocks = 37;    ///< Number of blocks of each size.
   size_t sizes = 4;      ///< Number of sizes, the first ones of kSmudgeSizes.
   uint32_t seed = 0;     ///< Decides which blocks, and the rays there.
@@ -22,7 +22,7 @@ struct SmudgePlan {
 class SmudgeAudit {
  public:
   SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-              const SmudgePlan& plan, const std::atomic<bool>& cancelled);
+              const SmudgeSettings& settings, const std::atomic<bool>& cancelled);
 
   ~SmudgeAudit();
 
@@ -44,7 +44,7 @@ class SmudgeAudit {
   const TileReader& tiles_;
   const Scene& scene_;
   const ShadingSystem& shading_;
-  const SmudgePlan plan_;
+  const SmudgeSettings settings_;
   const std::atomic<bool>& cancelled_;
   const int across_;              ///< Cells of 8 x 8 pixels in a row.
   std::vector<uint8_t> covered_;  ///< Number of pixels in each cell that see something.

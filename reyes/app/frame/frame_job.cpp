@@ -101,7 +101,7 @@ void FrameJob::findOpenings() {
 void FrameJob::prepareRays(RaySource rays) {
   raySource_ = std::move(rays);
   services_ = std::make_unique<GiServices>(scene_, camera_, raySource_, *shading_, giSettings(), stats_);
-  services_->keepWork(kept_);
+  services_->useCheckpoint(kept_);
   shading_->setServices(services_.get());
   setLightSources(*services_, *method_,
                   {raySource_, scene_, *shading_, camera_, settings_, meter_.makingMaps(), kept_, stats_, log_});

@@ -32,7 +32,7 @@ class FrameJob {
   void findOpenings();
   /// Keeps what is gathered and shaded for a later run, and takes over what an interrupted one has. Call it before rays
   /// are prepared. Null: nothing is kept.
-  void keepWork(KeptWork* kept) { kept_ = kept; }
+  void useCheckpoint(Checkpoint* kept) { kept_ = kept; }
   /// Prepares rays against the scene itself.
   void prepareRays();
   /// Prepares rays against what `rays` provides when the first ray is wanted: for scenes without geometry.
@@ -60,7 +60,7 @@ class FrameJob {
   const Camera& camera() const { return camera_; }
   ShadingSystem& shading() const { return *shading_; }
   GiServices* services() const { return services_.get(); }
-  KeptWork* kept() const { return kept_; }
+  Checkpoint* kept() const { return kept_; }
   CloudFiles& clouds() { return clouds_; }
   /// Returns null if nothing traces rays, or if rays are prepared against another source than the scene.
   const RayScene* rays() const { return rays_.get(); }
@@ -94,7 +94,7 @@ class FrameJob {
   const Camera camera_;
   FrameMeter meter_;
   CloudFiles clouds_;
-  KeptWork* kept_ = nullptr;
+  Checkpoint* kept_ = nullptr;
   std::unique_ptr<ShadingSystem> shading_;
   const GiMethod* method_ = nullptr;  ///< The method that the lights ask for, once they are bound.
   std::unique_ptr<RayScene> rays_;

@@ -57,7 +57,7 @@ void FrameLight::gatherShown() {
   progress(0);
   std::function<void(int)> show;
   ShadeContext context = job_.shadeContext();
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   if (Preview* preview = job_.preview(layout_))
     show = [&, preview](int stride) {
       preview->show(sketch(layout_, tiles_, stride, job_.scene(), job_.shading(), context, interrupted()));
@@ -80,20 +80,21 @@ void FrameLight::gatherRecords(const std::function<void(float)>& progress, const
   if (needsGather() && !interrupted()) job_.services()->gatherPass(layout_, tiles_, progress, &interrupted(), covered);
 }
 
-AuditPlan FrameLight::auditPlan(uint32_t seed) const {
-  AuditPlan plan;
-  if (const int pixels = job_.settings().quality.audit; pixels > 0) plan.pixels = static_cast<size_t>(pixels);
-  plan.seed = seed;
-  plan.indirect = false;
+AuditSettings FrameLight::auditSettings(uint32_t seed) const {
+  AuditSettings settings;
+  if (const int pixels = job_.settings().quality.audit; pixels > 0) settings.pixels = static_cast<size_t>(pixels);
+  settings.seed = seed;
+  settings.indirect = false;
   for (size_t g = 0; g < job_.scene().groups.size() && job_.mode() != GiMode::None; ++g)
-    plan.indirect |= job_.shading().indirectQuery(static_cast<int>(g)) != nullptr;
-  return plan;
+    settings.indirect |= job_.shading().indirectQuery(static_cast<int>(g)) != nullptr;
+  return settings;
 }
 
 AuditReport FrameLight::audit(uint32_t seed) {
   const StageTimer timer(job_.stats(), "audit");
   job_.meter().begin("auditing");
-  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditPlan(seed), interrupted()).of(job_.shadeContext());
+  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditSettings(seed), interrupted())
+      .of(job_.shadeContext());
 }
 
 void FrameLight::tellAudit(const AuditReport& report) {
@@ -114,7 +115,7 @@ void writeSketch(const FrameLight& light) {
   ShadeContext context = job.shadeContext();
   context.lightSamples = 1;
   context.indirect = false;
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   const std::filesystem::path file(fileOf(first));
   job.setSketchFile((file.parent_path() / (file.stem().string() + ".sketch.exr")).string());
   writeImage(job.sketchFile(),

@@ -28,8 +28,8 @@ class FrameLight {
   void endGather();
   /// Gathers in all tiles that there are, and shows nothing.
   void gatherRecords() { gatherRecords({}, {}); }
-  /// Returns the plan that `--audit` asks for, at pixels that this seed decides.
-  AuditPlan auditPlan(uint32_t seed) const;
+  /// Returns the settings that `--audit` asks for, at pixels that this seed decides.
+  AuditSettings auditSettings(uint32_t seed) const;
   /// Measures the error that the picture will have. The tiles are read once.
   AuditReport audit(uint32_t seed);
   /// Tells it: by a message, and in the headers of the Displays and the statistics.

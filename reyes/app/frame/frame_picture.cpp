@@ -58,7 +58,8 @@ void PictureWriter::tellNoise(DeepTile& tile) const {
   if (noise_ < 0) return;
   ShadeContext context = job_.shadeContext();
   context.seed = hashCombine(context.seed, randomStream("anew"));
-  context.redrawn = context.sketch = true;
+  context.redrawn = true;
+  context.purpose = Purpose::Sketch;
   DeepTile other = tile;
   other.shaded.clear();
   other.answers.clear();  // they are those of the first draw
@@ -93,7 +94,7 @@ void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t til
       progress(0.99f * (static_cast<float>(before) + share * static_cast<float>(tiles.size())) /
                static_cast<float>(frame_.tileCount()));
     };
-    const ShadeSteps steps{[&](size_t index, DeepTile& tile) {
+    const TileAccess steps{[&](size_t index, DeepTile& tile) {
                              auto loaded = load(index);
                              if (!loaded) return false;
                              tile = std::move(*loaded);

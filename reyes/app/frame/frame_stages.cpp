@@ -21,7 +21,7 @@ bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink) {
   return hideTiles(layout, job.scene(), job.shading(), control, job.stats(), job.log(), sink);
 }
 
-bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps) {
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps) {
   const StageTimer timer(job.stats(), "shade");
   const FrameControl control{job.meter().shading(), &interrupted(), job.settings().picture.seed};
   return shadeTiles(tiles, steps, job.scene(), job.shading(), job.shadeContext(), control);
@@ -45,7 +45,7 @@ void showWindow(FrameJob& job, const DeepFrame& layout, const PixelRect& window,
 
 void shadeApart(FrameJob& job, std::span<DeepTile> tiles, const ShownLight& light) {
   ShadeContext context = contextOf(job, light);
-  context.sketch = true;
+  context.purpose = Purpose::Sketch;
   parallelInOrder(tiles.size(), [&](size_t i) { shadeTile(tiles[i], job.scene(), job.shading(), context); });
 }
 

@@ -7,7 +7,7 @@ namespace tomales {
 /// Hides all buckets and opens what that needs. Returns false if it was interrupted.
 bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
 /// Shades some buckets. Returns false if it was interrupted.
-bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const ShadeSteps& steps);
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps);
 
 /// The light in which a part of a frame is shown.
 struct ShownLight {
@@ -16,7 +16,7 @@ struct ShownLight {
 };
 /// The tiles of showWindow(), from any thread.
 struct ShownTiles {
-  std::function<bool(size_t index, DeepTile& tile)> load;  ///< See ShadeSteps::load.
+  std::function<bool(size_t index, DeepTile& tile)> load;  ///< See TileAccess::load.
   std::function<void(size_t index, const DeepTile& tile)> shaded;
 };
 /// Shades the window of the frame for the viewer alone, before exposure and imager. It can be called again and again.

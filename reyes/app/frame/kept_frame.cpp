@@ -25,8 +25,8 @@ bool fits(const ShadedPoints& shaded, const ShadePoints& points) {
 
 }  // namespace
 
-std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
-                                     const RenderSettings& settings, Log& log) {
+std::unique_ptr<Checkpoint> checkpointOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
+                                         const RenderSettings& settings, Log& log) {
   if (!settings.picture.resume) return nullptr;
   if (settings.quality.chooses()) {
     log.report(
@@ -44,10 +44,10 @@ std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders
   const PixelRect& crop = layout.crop;  // records lie where it shows something
   const std::string identity = fmt::format("{} {} {} {} {} {} {}", contents, layout.bucketWidth, layout.bucketHeight,
                                            crop.x0, crop.y0, crop.x1, crop.y1);
-  return KeptWork::create(scene.options.displays.front().name + ".kept", identity, log);
+  return Checkpoint::create(scene.options.displays.front().name + ".kept", identity, log);
 }
 
-bool takeShaded(const KeptWork* kept, size_t index, DeepTile& tile) {
+bool takeShaded(const Checkpoint* kept, size_t index, DeepTile& tile) {
   std::vector<ShadedPoints> shaded;
   if (!kept || !kept->take(KeptKind::ShadedTile, index, shaded) || shaded.size() != tile.batches.size()) return false;
   for (size_t b = 0; b < shaded.size(); ++b)
@@ -56,7 +56,7 @@ bool takeShaded(const KeptWork* kept, size_t index, DeepTile& tile) {
   return true;
 }
 
-void keepShaded(KeptWork* kept, size_t index, const DeepTile& tile) {
+void keepShaded(Checkpoint* kept, size_t index, const DeepTile& tile) {
   if (kept && !kept->has(KeptKind::ShadedTile, index)) kept->keep(KeptKind::ShadedTile, index, tile.shaded);
 }
 

@@ -2,7 +2,7 @@
 // records, maps of light, and the colours of shaded buckets.
 #pragma once
 #include "reyes/app/settings.h"
-#include "reyes/base/kept_work.h"
+#include "reyes/base/checkpoint.h"
 #include "reyes/deep.h"
 #include "reyes/shader_registry.h"
 
@@ -10,12 +10,12 @@ namespace tomales {
 
 /// Opens the file beside the frame's first picture. Null without --resume, and, with a message, where it cannot be told
 /// that a later run renders the same. Pre: all procedurals have been opened.
-std::unique_ptr<KeptWork> keptWorkOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
-                                     const RenderSettings& settings, Log& log);
+std::unique_ptr<Checkpoint> checkpointOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
+                                         const RenderSettings& settings, Log& log);
 
 /// Sets the colours of a hidden tile that has been shaded before. Returns false if it has not. kept: may be null.
-bool takeShaded(const KeptWork* kept, size_t index, DeepTile& tile);
+bool takeShaded(const Checkpoint* kept, size_t index, DeepTile& tile);
 /// Pre: the tile is shaded as the finished picture has it. kept: may be null.
-void keepShaded(KeptWork* kept, size_t index, const DeepTile& tile);
+void keepShaded(Checkpoint* kept, size_t index, const DeepTile& tile);
 
 }  // namespace tomales

@@ -20,7 +20,7 @@ struct FrameOfLight {
   const Camera& camera;
   const RenderSettings& settings;
   std::function<void(float)> progress;  ///< Called by any thread with the progress of the maps.
-  KeptWork* kept;                       ///< Null if nothing is kept for a later run.
+  Checkpoint* kept;                     ///< Null if nothing is kept for a later run.
   Stats& stats;
   Log& log;
 };

@@ -57,9 +57,9 @@ void warnOfCoarseDicing(const Scene& scene, Log& log) {
 
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
   for (const PreparedCache& c : caches) {
-    if (c.plan.gather.covers()) continue;  // it asks for its rays itself, and knows its allowed error
+    if (c.key.gather.isOcclusion()) continue;  // it asks for its rays itself, and knows its allowed error
     const char* const knob =
-        c.plan.gather.asked ? "samples of indirectdiffuse()" : "\"samples\" of indirectlight, --samples";
+        c.key.gather.asked ? "samples of indirectdiffuse()" : "\"samples\" of indirectlight, --samples";
     const IrradianceRecords& records = c.cache.records();
     if (records.size() < kFewRecords) continue;
     double sum = 0, noise = 0;
@@ -76,12 +76,12 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
       log.report(Severity::Warning, "gather-noise", {},
                  fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record "
                              "are few for this light ({})",
-                             100 * share, records.size(), 100 * kUncertain, c.plan.gather.samples, knob));
+                             100 * share, records.size(), 100 * kUncertain, c.key.gather.samples, knob));
     else if (sum > 0 && noise > kUncertainLight * sum)
       log.report(Severity::Warning, "gather-few", {},
                  fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a "
                              "record, from something small and bright, which others miss ({})",
-                             100 * noise / sum, c.plan.gather.samples, knob));
+                             100 * noise / sum, c.key.gather.samples, knob));
   }
 }
 

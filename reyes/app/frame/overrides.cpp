@@ -44,9 +44,8 @@ void limitTextures(Options& options, int64_t limit_bytes) {
 
 RaySettings raySettings(const RenderSettings& settings, const Options& options) {
   RaySettings out{settings.light.hitList};
-  const auto it = options.user.find("limits:geocachememory");
-  if (it != options.user.end())
-    out.geometryCacheBytes = static_cast<size_t>(std::clamp(it->second.number(0), 0.0f, 1e15f) * 1024);
+  if (const Param* limit = findParam(options.user, "limits:geocachememory"))
+    out.geometryCacheBytes = static_cast<size_t>(std::clamp(limit->number(0), 0.0f, 1e15f) * 1024);
   // Nodes of a cluster grant different sizes, and give the same bits.
   if (settings.resources.memoryLimit && !settings.resources.memoryIsGranted)
     out.coarseBytes = static_cast<size_t>(rayShare(*settings.resources.memoryLimit));
@@ -104,7 +103,7 @@ void applyOverrides(Scene& scene, const RenderSettings& settings) {
       a.trace.displacements = true;
       a.trace.rate = TessellationMode::Full;
     });
-  if (settings.light.gi && settings.light.gi->mode == GiMode::Reference && scene.shutterIsOpen())
+  if (settings.light.gi && settings.light.gi->mode == GiMode::Reference && scene.options.shutterIsOpen())
     changeAttributes(scene, [](Attributes& a) { a.trace.sampleMotion = true; });
 }
 

@@ -82,7 +82,7 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
 
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
                                                     const RenderSettings& settings,
-                                                    const std::function<void(float)>& progress, KeptWork* kept,
+                                                    const std::function<void(float)>& progress, Checkpoint* kept,
                                                     Stats& stats, Log& log) {
   const StageTimer timer(stats, "radiosity");
   const Scene& scene = tools.rays->scene();

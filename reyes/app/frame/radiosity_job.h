@@ -12,7 +12,7 @@ namespace tomales {
 /// `progress` with the progress of baking.
 std::unique_ptr<const HitRadiance> prepareRadiosity(const RayTools& tools, const Camera& camera,
                                                     const RenderSettings& settings,
-                                                    const std::function<void(float)>& progress, KeptWork* kept,
+                                                    const std::function<void(float)>& progress, Checkpoint* kept,
                                                     Stats& stats, Log& log);
 
 }  // namespace tomales

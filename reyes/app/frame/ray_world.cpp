@@ -59,6 +59,7 @@ bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const Shade
     scene_.objects[o].attributes = scene_.groups[static_cast<size_t>(scene_.objects[o].group)].attributes;
   scene_.lights = shot.scene.lights;
   scene_.worldFromNamed = shot.scene.worldFromNamed;
+  scene_.worldFromOpenings = shot.scene.worldFromOpenings;
   first_->setServices(services);
   dressed_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
   tools_.shading = dressed_.get();
@@ -100,7 +101,8 @@ void RayWorld::dress(Scene& scene) const {
   for (Object& object : scene.objects)
     object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
   scene.lights = shot_.scene.lights;
-  scene.worldFromNamed = shot_.scene.worldFromNamed;  // with the openings that were found
+  scene.worldFromNamed = shot_.scene.worldFromNamed;
+  scene.worldFromOpenings = shot_.scene.worldFromOpenings;
   scene.options = shot_.scene.options;
   scene.freeze();
 }

@@ -91,6 +91,49 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
   return true;
 }
 
+/// Tells whether rows of the picture may be written before the last bucket is hidden.
+bool mayWriteEarly(const Scene& scene, const RenderSettings& settings, bool gathers, int64_t budget_bytes) {
+  // An audit looks at all rows before the first one is written, because the pictures' headers tell what it has found.
+  if (gathers || settings.quality.audits() || settings.quality.chooses()) return false;
+  const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
+  // A preview wants the first rows first.
+  return large || !settings.report.preview.empty() || mayStream(scene);
+}
+
+using TileFinder = std::function<std::optional<DeepTile>(size_t tile)>;
+
+/// Hides all buckets, gathers light if `gathers`, and writes the picture. `given`: records of light come from a file.
+/// `budget_bytes`: memory for buckets. Returns false if it is a pilot, which leaves nothing.
+bool renderInStages(FrameJob& job, const DeepFrame& layout, BucketFile& file, const TileFinder& find, bool gathers,
+                    bool given, int64_t budget_bytes, const std::function<void()>& afterStage) {
+  const RenderSettings& settings = job.settings();
+  const bool isLimited = settings.resources.memoryLimit.has_value();
+  // The geometry that rays will meet needs room too, and nobody knows yet how much.
+  TileStore store(layout.tileCount(), isLimited && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
+  const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
+  const TileSink sink{{},
+                      [&](size_t i, DeepTile&& tile) {
+                        file.keepForResume(i, tile);
+                        if (!store.keep(i, tile)) spill(i, tile);
+                      },
+                      settings.picture.resume ? find : nullptr};
+  hideBuckets(job, layout, sink);
+  returnFreeMemory();  // frees the grids
+  afterStage();
+  if (isLimited && job.method().makesMaps)
+    store.shrinkTo(0, spill);  // photons need the room; buckets are loaded again when they are read
+  if (!given) job.prepareRays();
+  if (isLimited) {
+    store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
+    returnFreeMemory();
+  }
+  FrameLight(job, layout, store.reader()).make(gathers);
+  if (settings.quality.isPilot) return false;
+  afterStage();
+  writePicture(job, layout, [&](size_t i) { return store.take(i); });
+  return true;
+}
+
 }  // namespace
 
 void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
@@ -107,47 +150,19 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
     log.report(Severity::Warning, "baked-unused", {},
                "--baked: nothing is gathered that could be kept; it is for --gi gather, atlas or baked");
   const int64_t budget_bytes = tileBudget(settings, 0);
-  const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
-  // A preview wants the first rows first. An audit looks at all rows before the first one is written, because the
-  // pictures' headers tell what it has found.
-  const bool streams = !gathers && !settings.quality.audits() && !settings.quality.chooses() &&
-                       (large || !settings.report.preview.empty() || mayStream(scene));
+  const bool streams = mayWriteEarly(scene, settings, gathers, budget_bytes);
 
   if (streams || given || settings.picture.resume) job.openAll();
   BucketFile file(scene, layout, world, settings, log);
-  const std::unique_ptr<KeptWork> kept = keptWorkOf(scene, shaders, layout, settings, log);
-  job.keepWork(kept.get());
-  const std::function<std::optional<DeepTile>(size_t)> find = [&](size_t i) { return file.tile(i); };
+  const std::unique_ptr<Checkpoint> kept = checkpointOf(scene, shaders, layout, settings, log);
+  job.useCheckpoint(kept.get());
+  const TileFinder find = [&](size_t i) { return file.tile(i); };
   if (streams || given) job.prepareRays();
   if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
-  if (streams) {
+  if (streams)
     hideAndWritePicture(job, layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
-  } else {
-    // The geometry that rays will meet needs room too, and nobody knows yet how much.
-    TileStore store(layout.tileCount(),
-                    settings.resources.memoryLimit && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
-    const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
-    const TileSink sink{{},
-                        [&](size_t i, DeepTile&& tile) {
-                          file.keepForResume(i, tile);
-                          if (!store.keep(i, tile)) spill(i, tile);
-                        },
-                        settings.picture.resume ? find : nullptr};
-    hideBuckets(job, layout, sink);
-    returnFreeMemory();  // frees the grids
-    afterStage();
-    if (settings.resources.memoryLimit && job.method().makesMaps)
-      store.shrinkTo(0, spill);  // photons need the room; buckets are loaded again when they are read
-    if (!given) job.prepareRays();
-    if (settings.resources.memoryLimit) {
-      store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
-      returnFreeMemory();
-    }
-    FrameLight(job, layout, store.reader()).make(gathers);
-    if (settings.quality.isPilot) return file.forget();
-    afterStage();
-    writePicture(job, layout, [&](size_t i) { return store.take(i); });
-  }
+  else if (!renderInStages(job, layout, file, find, gathers, given, budget_bytes, afterStage))
+    return file.forget();
   if (settings.resources.memoryLimit)
     reportMemory(*settings.resources.memoryLimit,
                  streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"

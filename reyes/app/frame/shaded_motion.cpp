@@ -49,19 +49,19 @@ class MovedLight {
       probe.P.push_back(p.P);
       probe.N.push_back(p.N);
     }
-    std::vector<float> density(places.size(), 1);
+    std::vector<float> pdf(places.size(), 1);
     const bool isArea = kind == LightKind::Area;
-    if (isArea && !onEmitter(light, probe, density)) return;
+    if (isArea && !onEmitter(light, probe, pdf)) return;
     shading_.probe(light, probe);
     for (size_t i = 0; i < places.size(); ++i) {
       const vec3 L = isArea ? probe.Pl[i] - places[i].P : probe.L[i];
       const float cosine = isAmbient ? 1 : std::max(0.0f, dot(places[i].N, normalizeOr(L, vec3(0))));
-      if (density[i] > 0) out[i] += luminance(probe.Cl[i]) * cosine / (isArea ? kPi * density[i] : 1);
+      if (pdf[i] > 0) out[i] += luminance(probe.Cl[i]) * cosine / (isArea ? kPi * pdf[i] : 1);
     }
   }
 
   /// Gives each place a point in the middle of an emitter, and its density over solid angle.
-  bool onEmitter(int light, LightProbe& probe, std::vector<float>& density) const {
+  bool onEmitter(int light, LightProbe& probe, std::vector<float>& pdf) const {
     const size_t n = probe.P.size();
     std::vector<float> from[3], P[3], N[3], middle(n, 0.5f), met(n);
     for (int k = 0; k < 3; ++k) {
@@ -70,7 +70,7 @@ class MovedLight {
       N[k].resize(n);
     }
     const EmitterPoints points{
-        {P[0].data(), P[1].data(), P[2].data()}, {N[0].data(), N[1].data(), N[2].data()}, density.data(), met.data()};
+        {P[0].data(), P[1].data(), P[2].data()}, {N[0].data(), N[1].data(), N[2].data()}, pdf.data(), met.data()};
     if (!rays_.emitters().sampleFrom(light, static_cast<int>(n), {from[0].data(), from[1].data(), from[2].data()},
                                      middle.data(), middle.data(), points))
       return false;
@@ -103,7 +103,7 @@ std::vector<Place> placesOn(const Scene& scene, int object) {
 /// Returns some of the groups that move before the eye, from all over the scene.
 std::vector<const ShadeGroup*> movingGroups(const Scene& scene) {
   std::vector<const ShadeGroup*> all, out;
-  if (!scene.shutterIsOpen() || scene.lights.empty()) return out;
+  if (!scene.options.shutterIsOpen() || scene.lights.empty()) return out;
   for (const ShadeGroup& g : scene.groups)
     if (g.currentFromOpen.moving() && g.exampleObject >= 0 && g.attributes->visibility.camera && !g.attributes->matte &&
         !g.attributes->volume)

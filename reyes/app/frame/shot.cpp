@@ -71,12 +71,12 @@ bool ShotJob::edit() {
   return false;
 }
 
-std::unique_ptr<KeptWork> ShotJob::keptGather() const {
+std::unique_ptr<Checkpoint> ShotJob::keptGather() const {
   if (!settings_.picture.resume) return nullptr;
   const std::string sum = sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
                     contents =
                         contentsOfGather(shot_, files_->dfb().shotSum(), *files_->kept().shaders, sum, settings_);
-  if (!contents.empty()) return KeptWork::create(settings_.picture.output + ".kept", contents, log_);
+  if (!contents.empty()) return Checkpoint::create(settings_.picture.output + ".kept", contents, log_);
   log_.report(Severity::Note, "resume", {},
               "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
               "runs");
@@ -89,7 +89,7 @@ void ShotJob::prepareLight() {
   world_ = std::make_unique<RayWorld>(shot_, geometry, settings_, stats_, log_);
   job_ = std::make_unique<FrameJob>(shot_.scene, *geometry.shaders, settings_, stats_, log_);
   kept_ = keptGather();
-  job_->keepWork(kept_.get());
+  job_->useCheckpoint(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
   world_->setServices(job_->services());
   if (files_->hasIrradiance()) {
@@ -127,10 +127,10 @@ void ShotJob::prepareShares() {
 
 std::vector<std::string> ShotJob::staleLight() const {
   // Records of occlusion() do not depend on lights.
-  const bool holdLight =
-      files_->hasIrradiance() &&
-      (files_->irradiance().settings.mode != GiMode::None ||
-       std::ranges::any_of(job_->services()->caches(), [](const PreparedCache& c) { return !c.plan.gather.covers(); }));
+  const bool holdLight = files_->hasIrradiance() &&
+                         (files_->irradiance().settings.mode != GiMode::None ||
+                          std::ranges::any_of(job_->services()->caches(),
+                                              [](const PreparedCache& c) { return !c.key.gather.isOcclusion(); }));
   if (!holdLight) return {};
   std::set<std::string> changed;
   for (const std::string& handle : lightEdits_.stale) changed.insert("light \"" + handle + "\"");
@@ -205,7 +205,7 @@ void ShotJob::shadeApart(std::span<DeepTile> tiles) { tomales::shadeApart(*job_,
 void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
   const PixelRect& crop = shot_.frame.crop;
   for (PreparedCache& prepared : caches) {
-    IrradianceCache kept(prepared.cache.bound(), prepared.plan.cache);
+    IrradianceCache kept(prepared.cache.bound(), prepared.key.cache);
     for (const IrradianceRecord& r : prepared.cache.records()) {
       const vec2 at = job_->camera().seeable(r.position) ? job_->camera().raster(r.position) : vec2(-1e9f);
       if (!crop.contains(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)))) kept.restore(r);
@@ -217,8 +217,8 @@ void ShotJob::dropRecordsOfCrop(std::vector<PreparedCache>& caches) const {
 void ShotJob::takeEdits(std::vector<PreparedCache>& caches) const {
   if (lightEdits_.gains.empty()) return;
   for (PreparedCache& prepared : caches) {
-    if (prepared.plan.gather.covers()) continue;
-    IrradianceCache edited(prepared.cache.bound(), prepared.plan.cache);
+    if (prepared.key.gather.isOcclusion()) continue;
+    IrradianceCache edited(prepared.cache.bound(), prepared.key.cache);
     for (const IrradianceRecord& r : prepared.cache.records()) edited.restore(withGains(r, lightEdits_.gains));
     prepared.cache = std::move(edited);
   }

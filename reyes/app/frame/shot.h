@@ -49,7 +49,7 @@ class ShotJob {
   void prepareLight();
   void prepareShares();
   /// Returns the records that an interrupted run has gathered, with --resume; null if nothing is kept.
-  std::unique_ptr<KeptWork> keptGather() const;
+  std::unique_ptr<Checkpoint> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
   /// Drops the records gathered before where --crop asks for new ones.
@@ -75,7 +75,7 @@ class ShotJob {
   bool gathers_ = false;      ///< True if records are made for a file.
   bool gathersAnew_ = false;  ///< True if records are given, and those that --crop shows are gathered anew.
   std::unique_ptr<RayWorld> world_;
-  std::unique_ptr<KeptWork> kept_;
+  std::unique_ptr<Checkpoint> kept_;
   std::unique_ptr<FrameJob> job_;
 };
 

@@ -28,20 +28,20 @@ std::string described(const SkyOpening& opening, const mat4& worldFromCurrent) {
 }  // namespace
 
 bool wantsSkyPortals(const Scene& scene, const ShadingSystem& shading) {
-  const auto asked = scene.options.user.find("trace:openings");
-  const bool off = asked != scene.options.user.end() && asked->second.number(0) == 0;
+  const Param* asked = findParam(scene.options.user, "trace:openings");
+  const bool off = asked && asked->number(0) == 0;
   return !off && lightOfOpenings(scene, shading);
 }
 
 void findSkyPortals(Scene& scene, const Camera& camera, ShadingSystem& shading, const RayScene& rays, Log& log) {
   if (!wantsSkyPortals(scene, shading)) return;
-  std::erase_if(scene.worldFromNamed, [](const auto& space) { return space.first.starts_with(kSkyOpening); });
+  scene.worldFromOpenings.clear();
   const std::vector<SkyOpening> found = skyOpenings(rays, camera, shading);
   const mat4 worldFromCurrent = glm::inverse(scene.cameraFromWorldAtOpen());
-  for (size_t k = 0; k < found.size(); ++k)
-    scene.worldFromNamed[kSkyOpening + std::to_string(k + 1)] =
-        worldFromCurrent * mat4(vec4(2 * kWider * found[k].halfU, 0), vec4(2 * kWider * found[k].halfV, 0),
-                                vec4(found[k].normal(), 0), vec4(found[k].center, 1));
+  for (const SkyOpening& opening : found)
+    scene.worldFromOpenings.push_back(worldFromCurrent * mat4(vec4(2 * kWider * opening.halfU, 0),
+                                                              vec4(2 * kWider * opening.halfV, 0),
+                                                              vec4(opening.normal(), 0), vec4(opening.center, 1)));
   shading.takeFoundPortals();
   if (found.empty()) return;
   const LightCall* light = lightOfOpenings(scene, shading);

@@ -12,8 +12,8 @@ class Log;
 /// Tells whether a light of the scene takes openings, and the scene wants them found.
 bool wantsSkyPortals(const Scene& scene, const ShadingSystem& shading);
 
-/// Replaces the scene's spaces named kSkyOpening and a number by what the rays find, and tells the lights, where
-/// wantsSkyPortals(). Call it before anything is shaded.
+/// Sets Scene::worldFromOpenings to what rays find, and tells the lights, where wantsSkyPortals(). Call it before
+/// anything is shaded.
 void findSkyPortals(Scene& scene, const Camera& camera, ShadingSystem& shading, const RayScene& rays, Log& log);
 
 }  // namespace tomales

@@ -40,9 +40,9 @@ class TargetSearch {
         log_(job_.log()) {}
 
   void run() {
-    const TrialPlan plan{.seed = seedOfTrials(settings_),
-                         .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
-    TrialsResult trials = makeTrials(light_, plan);
+    const TrialSettings trialSettings{.seed = seedOfTrials(settings_),
+                                      .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
+    TrialsResult trials = makeTrials(light_, trialSettings);
     if (interrupted()) return;
     ErrorModel& model = trials.model;
     LightQuality quality = model.cheapest(target_ * kMargin);

@@ -53,10 +53,10 @@ class BudgetedFrame {
   TrialsResult makeTrials() {
     writeSketch(light_);
     const auto remaining_s = [&] { return std::max(0.0, settings_.quality.timeBudget_s - job_.elapsed_s()); };
-    const TrialPlan plan{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
-                         [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
-                         [=] { return kShareOfNarrowTrial * remaining_s(); }};
-    return tomales::makeTrials(light_, plan);
+    const TrialSettings trialSettings{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
+                                      [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
+                                      [=] { return kShareOfNarrowTrial * remaining_s(); }};
+    return tomales::makeTrials(light_, trialSettings);
   }
 
   /// Returns the time that gathering and shading may take from now on; negative if there is nothing left.

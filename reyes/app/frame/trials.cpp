@@ -69,23 +69,23 @@ FrameLight within(const FrameLight& light, std::span<const size_t> which) {
 
 class Trials {
  public:
-  Trials(const FrameLight& light, const TrialPlan& plan)
+  Trials(const FrameLight& light, const TrialSettings& settings)
       : job_(light.job()),
-        plan_(plan),
+        settings_(settings),
         points_(pointsIn(light)),
         seen_(bucketsOf(points_)),
-        some_(someOf(seen_, light.layout(), plan.seed)),
+        some_(someOf(seen_, light.layout(), settings.seed)),
         light_(within(light, some_)) {}
 
   TrialsResult run() {
     const bool paths = job_.method().isReference, records = job_.method().caches;
     const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLamps;
     const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
-    AuditPlan plan = light_.auditPlan(plan_.seed);
-    plan.lightSamples = finer.lightSamples;
-    plan.smudgeSizes = kSmudgeSizesOfTrials;
-    if (plan_.isBrief) plan.pixels = kPixelsOfBriefTrials;
-    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), plan, interrupted());
+    AuditSettings auditSettings = light_.auditSettings(settings_.seed);
+    auditSettings.lightSamples = finer.lightSamples;
+    auditSettings.smudgeSizes = kSmudgeSizesOfTrials;
+    if (settings_.isBrief) auditSettings.pixels = kPixelsOfBriefTrials;
+    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), auditSettings, interrupted());
     const QualityTrial first = trial(base, audit), second = trial(finer, audit);
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
     ErrorModel model(first, second, third);
@@ -97,16 +97,17 @@ class Trials {
 
  private:
   void tryNarrower(const QualityTrial& base, ErrorModel& model, Audit& audit) {
-    const float maxError = plan_.likely(model).maxError;
+    const float maxError = settings_.likely(model).maxError;
     if (!(maxError > 0 && maxError < kMuchNarrower * base.quality.maxError)) return;
     LightQuality quality = base.quality;
     quality.maxError = maxError;
-    if (model.gatherCostOf(1 / inFrame(), quality) <= plan_.mostOfNarrow()) model.addNarrower(trialOf(quality, audit));
+    if (model.gatherCostOf(1 / inFrame(), quality) <= settings_.mostOfNarrow())
+      model.addNarrower(trialOf(quality, audit));
   }
 
   QualityTrial trial(LightQuality quality, Audit& audit) {
-    if (plan_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
-    if (plan_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
+    if (settings_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
+    if (settings_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
     return trialOf(quality, audit);
   }
 
@@ -137,12 +138,12 @@ class Trials {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;
     for (const size_t t : some_) some += points_.at(t);
-    if (plan_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(light_, some_);
+    if (settings_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(light_, some_);
     return all / std::max(1.0, audit.pointCount()) * costOf([&] { audit.shade(job_.shadeContext()); });
   }
 
   double inUnit(const GiServices::BounceCost& cost) const {
-    return plan_.unit == CostUnit::Seconds ? cost.time_s : cost.rays;
+    return settings_.unit == CostUnit::Seconds ? cost.time_s : cost.rays;
   }
 
   template <class Work>
@@ -152,11 +153,11 @@ class Trials {
     const double moreRays = job_.stats().lightRays() - rays, more_s = seconds() - time_s;
     lightRays_ += moreRays;
     light_s_ += more_s;
-    return plan_.unit == CostUnit::Seconds ? more_s : moreRays;
+    return settings_.unit == CostUnit::Seconds ? more_s : moreRays;
   }
 
   FrameJob& job_;
-  const TrialPlan plan_;
+  const TrialSettings settings_;
   const std::map<size_t, double> points_;
   const std::vector<size_t> seen_, some_;
   FrameLight light_;  ///< That of the buckets that are tried.
@@ -193,9 +194,9 @@ double secondsToShade(const FrameLight& light, std::span<const size_t> which) {
   return seconds() - start_s;
 }
 
-TrialsResult makeTrials(const FrameLight& light, const TrialPlan& plan) {
+TrialsResult makeTrials(const FrameLight& light, const TrialSettings& settings) {
   const StageTimer timer(light.job().stats(), "trials");
-  return Trials(light, plan).run();
+  return Trials(light, settings).run();
 }
 
 }  // namespace tomales

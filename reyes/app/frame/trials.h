@@ -13,7 +13,7 @@ namespace tomales {
 /// Rays are the same in every run, seconds are those of this machine now.
 enum class CostUnit { Rays, Seconds };
 
-struct TrialPlan {
+struct TrialSettings {
   CostUnit unit = CostUnit::Rays;
   bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
   uint32_t seed = 0;     ///< Decides which buckets and pixels.
@@ -41,6 +41,6 @@ QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> wh
 double secondsToShade(const FrameLight& light, std::span<const size_t> which);
 
 /// Lights and audits the buckets two to four times. The gathered records stay with the job until its next setQuality().
-TrialsResult makeTrials(const FrameLight& light, const TrialPlan& plan);
+TrialsResult makeTrials(const FrameLight& light, const TrialSettings& settings);
 
 }  // namespace tomales

@@ -10,7 +10,7 @@ namespace tomales::compiler {
 /// When it ends, results are in their registers, for active points. In temporaries the other points hold 0.
 class Call {
  public:
-  Call(Run& r, const Step& s) : run(r), of(*s.of) {}
+  Call(Run& r, const PreparedInstruction& s) : run(r), of(*s.of) {}
   ~Call() { finish(); }
   Call(const Call&) = delete;
 

@@ -13,7 +13,7 @@ namespace {
 // A loop of ten instructions takes about a microsecond an iteration of 256 points, so this is some seconds.
 std::atomic<int64_t> loopLimit{5'000'000};
 
-void executeIf(Run& run, const Step& s) {
+void executeIf(Run& run, const PreparedInstruction& s) {
   const Lanes& condition = run.lane(s.of->in[0]);
   const bool hasOther = s.blocks.size() > 1 && !s.blocks[1].empty();
   if (condition.block == 0) {
@@ -63,7 +63,7 @@ bool keep(Run& run, int32_t condition) {
   return mask.any;
 }
 
-void executeLoop(Run& run, const Step& s) {
+void executeLoop(Run& run, const PreparedInstruction& s) {
   const Borrowed borrowed(run.memory);
   const int32_t condition = s.of->in[0], label = s.of->extra;
   std::optional<Narrowed> inside;
@@ -82,7 +82,7 @@ void executeLoop(Run& run, const Step& s) {
   }
 }
 
-void executeScope(Run& run, const Step& s) {
+void executeScope(Run& run, const PreparedInstruction& s) {
   if (!s.left[0]) return execute(run, s.blocks[0]);
   const Borrowed borrowed(run.memory);
   const Narrowed inside(run, s.of->extra);
@@ -90,7 +90,7 @@ void executeScope(Run& run, const Step& s) {
 }
 
 /// Takes the active points out of all masks up to that of the label.
-void executeLeave(Run& run, const Step& s) {
+void executeLeave(Run& run, const PreparedInstruction& s) {
   for (Mask* m = run.mask; m->label != s.of->extra && m->outer;) {
     m = m->outer;
     m->any = remove(run.padded, run.mask->on, m->on);
@@ -109,8 +109,8 @@ std::span<const Row> controlRows() { return kControlRows; }
 
 void setLoopLimit(int64_t iterations) { loopLimit = iterations; }
 
-void execute(Run& run, const Steps& steps) {
-  for (const Step& s : steps) {
+void execute(Run& run, const PreparedBlock& block) {
+  for (const PreparedInstruction& s : block) {
     s.execute(run, s);
     if (!run.mask->any) return;
   }

@@ -19,7 +19,7 @@ void copyLane(Run& run, bool all, const float* from, bool fromVaries, float* to,
     fillWhere(run.padded, run.mask->on, *from, to);
 }
 
-void executeComponent(Run& run, const Step& s) {
+void executeComponent(Run& run, const PreparedInstruction& s) {
   const Lanes &from = run.lane(s.in[0]), &to = run.lane(s.out);
   copyLane(run, true, from.data + s.component * static_cast<ptrdiff_t>(from.component), from.block != 0, to.data,
            to.block != 0);
@@ -31,7 +31,7 @@ void copyTexts(Run& run, int32_t from, int32_t to) {
     run.variableText(to, e) = run.text(from, has > 0 ? e : 0);
 }
 
-void executeCopy(Run& run, const Step& s) {
+void executeCopy(Run& run, const PreparedInstruction& s) {
   const int32_t from = s.of->in[0], to = s.of->out[0];
   const Register &source = run.reg(from), &target = run.reg(to);
   if (target.shape == Shape::Text) return copyTexts(run, from, to);
@@ -75,7 +75,7 @@ const int32_t* elements(Run& run, int32_t array, int32_t index) {
   return out;
 }
 
-void executeElement(Run& run, const Step& s) {
+void executeElement(Run& run, const PreparedInstruction& s) {
   const int32_t array = s.of->in[0], index = s.of->in[1], to = s.of->out[0];
   const int32_t width = floatsOf(run.reg(to)), stride = run.stride(array), next = run.stride(to);
   const float* const from = run.lane(array).data;
@@ -99,7 +99,7 @@ void executeElement(Run& run, const Step& s) {
   }
 }
 
-void executeElementText(Run& run, const Step& s) {
+void executeElementText(Run& run, const PreparedInstruction& s) {
   bool outside = false;
   const int32_t array = s.of->in[0], index = s.of->in[1];
   const float wanted = run.lane(index).data[run.varies(index) ? run.firstActive() : 0];
@@ -108,7 +108,7 @@ void executeElementText(Run& run, const Step& s) {
   run.variableText(s.of->out[0]) = run.text(array, e);
 }
 
-void executeSetElement(Run& run, const Step& s) {
+void executeSetElement(Run& run, const PreparedInstruction& s) {
   const int32_t array = s.of->out[0], index = s.of->in[0], value = s.of->in[1];
   const Register& target = run.reg(array);
   bool outside = false;

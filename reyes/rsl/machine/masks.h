@@ -1,6 +1,6 @@
 // Narrowing the mask of a run, and the loops over it.
 #pragma once
-#include "reyes/rsl/machine/frame.h"
+#include "reyes/rsl/machine/run.h"
 
 namespace tomales::compiler {
 

@@ -127,11 +127,11 @@ void Program::locate() {
   join(cleared_);
 }
 
-Steps Program::prepared(const Block& block) const {
-  Steps out;
+PreparedBlock Program::prepared(const Block& block) const {
+  PreparedBlock out;
   out.reserve(block.size());
   for (const Instruction& i : block) {
-    Step& s = out.emplace_back();
+    PreparedInstruction& s = out.emplace_back();
     s.of = &i;
     s.kernel = kernelOf(i.op);
     std::copy_n(i.in.begin(), std::min(std::size(s.in), i.in.size()), s.in);

@@ -8,12 +8,12 @@
 namespace tomales::compiler {
 
 struct Run;
-struct Step;
-using Steps = std::vector<Step>;
-using Execute = void (*)(Run&, const Step&);
+struct PreparedInstruction;
+using PreparedBlock = std::vector<PreparedInstruction>;
+using Execute = void (*)(Run&, const PreparedInstruction&);
 
 /// An instruction, with the values that would otherwise be looked up each time.
-struct Step {
+struct PreparedInstruction {
   Execute execute = nullptr;
   Kernel kernel = nullptr;
   const Instruction* of = nullptr;
@@ -23,17 +23,17 @@ struct Step {
   int32_t component = 0;   ///< The component that Op::Component reads, where that is constant.
   bool uniform = false;    ///< The result is one value for the batch.
   bool left[2] = {};       ///< Something leaves the label `extra`, or `extra` + 1, of a Scope or Loop.
-  std::vector<Steps> blocks;
+  std::vector<PreparedBlock> blocks;
 };
 
 /// The place of a register.
 enum class Where : uint8_t {
   Nowhere,   ///< Nothing uses it.
   Constant,  ///< It lies `at` floats behind the program's first constant.
-  Varying,   ///< It lies `at` floats for each point behind the frame's first.
-  Uniform,   ///< It lies `at` values behind the frame's first.
+  Varying,   ///< It lies `at` floats for each point behind the run's first.
+  Uniform,   ///< It lies `at` values behind the run's first.
   Given,     ///< The grid's arrays are used if they can be; else it is as Varying.
-  Texts,     ///< The frame's text number `at`; a constant is a text of the code.
+  Texts,     ///< The run's text number `at`; a constant is a text of the code.
 };
 struct Located {
   Where where = Where::Nowhere;
@@ -55,7 +55,7 @@ class Program {
   const Register& reg(int32_t r) const { return code_.registers[static_cast<size_t>(r)]; }
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
-  const Steps& body() const { return body_; }
+  const PreparedBlock& body() const { return body_; }
   /// Returns the globals and parameters that are used, in the order of their numbers.
   const std::vector<int32_t>& ofHost() const { return ofHost_; }
   /// Registers that may be read before they are written: floats a point (varying) or values (uniform), [from, to).
@@ -72,14 +72,14 @@ class Program {
   void find(const Block& block);
   void findOverwritten();
   void locate();
-  Steps prepared(const Block& block) const;
+  PreparedBlock prepared(const Block& block) const;
   Code code_;
   std::vector<Located> located_;
   std::vector<bool> used_, left_;  // by register; by label
   AlignedVector<float> constants_;
   std::vector<Cleared> cleared_;
   std::vector<int32_t> ofHost_;
-  Steps body_;
+  PreparedBlock body_;
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;
 };
 

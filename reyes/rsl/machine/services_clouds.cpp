@@ -15,7 +15,7 @@ TmCloudOptions optionsOf(Call& call, const rsl::CloudList& list) {
 }
 
 /// Takes file, description of the channels (their values tell the same), P, N; settings are options and values.
-void bake3d(Run& run, const Step& s) {
+void bake3d(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   std::vector<TmChannel> values;
   const rsl::CloudList list =
@@ -34,7 +34,7 @@ void bake3d(Run& run, const Step& s) {
                                               values.data(), static_cast<int32_t>(values.size())) != 0));
 }
 
-void texture3d(Run& run, const Step& s) {
+void texture3d(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   std::vector<TmChannel> values;
   const rsl::CloudList list =
@@ -47,7 +47,7 @@ void texture3d(Run& run, const Step& s) {
                           static_cast<int32_t>(values.size()), call.giveNumber());
 }
 
-void photonMap(Run& run, const Step& s) {
+void photonMap(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const rsl::PhotonList list = listed(call, rsl::PhotonList());
   const TmVec3 out = call.giveTriple();
@@ -63,7 +63,7 @@ void photonMap(Run& run, const Step& s) {
 }
 
 /// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
-void caustic(Run& run, const Step& s) {
+void caustic(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmVec3 out = call.giveTriple();
   for (float* const c : {out.x, out.y, out.z}) fillWhere(run.padded, run.mask->on, 0, c);
@@ -77,7 +77,7 @@ void caustic(Run& run, const Step& s) {
 }
 
 /// Takes file, P and N. The approximation does not look at N.
-void subsurface(Run& run, const Step& s) {
+void subsurface(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmSubsurfaceOptions options = listed(call, tmSubsurfaceDefaults());
   call.services.subsurface(call.host, call.g, call.text(0), &options, call.triple(1), call.giveTriple());

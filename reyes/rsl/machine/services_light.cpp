@@ -11,23 +11,23 @@
 namespace tomales::compiler {
 namespace {
 
-void ambient(Run& run, const Step& s) {
+void ambient(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   call.services.ambient(call.host, call.g, call.giveTriple());
 }
 
-void diffuse(Run& run, const Step& s) {
+void diffuse(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   call.services.diffuse(call.host, call.g, TM_ALL_LIGHT, call.triple(0), call.giveTriple());
 }
 
-void specular(Run& run, const Step& s) {
+void specular(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   call.services.specular(call.host, call.g, call.triple(0), call.triple(1), call.number(2), call.giveTriple());
 }
 
 /// Asks for what specular() divides by the roughness to get its exponent, as sl::specularScale().
-void specularScale(Run& run, const Step& s) {
+void specularScale(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   if (run.specularScale == 0) {
     int32_t type = 0;
@@ -85,7 +85,8 @@ void ask(Call& call, const std::string& category, TmIlluminance& query) {
   }
 }
 
-void runLit(Run& run, const Step& s, const TmIlluminance& sample, const rsl::LightList& list, uint8_t* lit) {
+void runLit(Run& run, const PreparedInstruction& s, const TmIlluminance& sample, const rsl::LightList& list,
+            uint8_t* lit) {
   if (!both(run.padded, sample.lit, run.mask->on, lit)) return;
   const bool all = std::memcmp(lit, run.mask->on, static_cast<size_t>(run.padded)) == 0;
   std::optional<Narrowed> inner;
@@ -97,7 +98,7 @@ void runLit(Run& run, const Step& s, const TmIlluminance& sample, const rsl::Lig
   execute(run, s.blocks[0]);
 }
 
-void illuminance(Run& run, const Step& s) {
+void illuminance(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const std::string category = call.has(0) ? call.text(0) : "";
   TmIlluminance query = tmIlluminanceDefaults();
@@ -129,7 +130,7 @@ void apply(Run& run, Op op, float* in, float* out) {
 }
 
 /// A direction in a cone: even over its solid angle if the host gives random numbers, else the axis (sl::solar()).
-void coneLight(Run& run, const Step& s) {
+void coneLight(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmConstVec3 axis = call.triple(0);
   const float* const angle = call.number(1);
@@ -159,7 +160,7 @@ void coneLight(Run& run, const Step& s) {
 }
 
 /// Turns the host's direction round: L of RSL leads from the light.
-void skyLight(Run& run, const Step& s) {
+void skyLight(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmVec3 out = call.giveTriple();
   const TmVec3& L = run.given.L;
@@ -167,7 +168,7 @@ void skyLight(Run& run, const Step& s) {
     if (run.mask->on[i]) rsl::set(out, i, -rsl::get(L, i));
 }
 
-void shadow(Run& run, const Step& s) {
+void shadow(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmShadowOptions options = listed(call, tmShadowDefaults());
   call.services.shadow(call.host, call.g, call.text(0), &options, call.triple(1), call.giveTriple());

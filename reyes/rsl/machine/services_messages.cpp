@@ -5,7 +5,7 @@ namespace tomales::compiler {
 namespace {
 
 /// Gives 1, and the value of the settings' one entry, if there is one of that name and type; else 0.
-void ask(Run& run, const Step& s) {
+void ask(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   int32_t type = 0;
   TmValue v{};
@@ -18,7 +18,7 @@ void ask(Run& run, const Step& s) {
 constexpr std::string_view kWhom[] = {"surface", "displacement", "atmosphere", "incident", "opposite", "light"};
 
 /// Gives an empty text if there is no such shader.
-void shaderName(Run& run, const Step& s) {
+void shaderName(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const auto whom = static_cast<int32_t>(std::find(std::begin(kWhom), std::end(kWhom), call.text(0)) - kWhom);
   int32_t type = 0;
@@ -44,7 +44,7 @@ bool rayText(Call& call, const std::string& name, std::string& out) {
   return true;
 }
 
-void rayInfo(Run& run, const Step& s) {
+void rayInfo(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const int32_t to = s.of->settings.at(0).value;
   if (run.reg(to).shape == Shape::Text)
@@ -56,7 +56,7 @@ void rayInfo(Run& run, const Step& s) {
   call.set(told && fill(run, to, run.reg(to).shape == Shape::Number ? TM_FLOAT : TM_VECTOR, v) ? 1.0f : 0.0f);
 }
 
-void rayLabel(Run& run, const Step& s) {
+void rayLabel(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   run.variableText(s.of->out[0]) = call.services.rayLabel(call.host, call.g);
 }

@@ -12,7 +12,7 @@ TmVec3 channels(Call& call) {
 
 int32_t firstChannel(Call& call) { return call.has(1) ? call.whole(1, "channels") : 0; }
 
-void texture(Run& run, const Step& s) {
+void texture(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   TmTextureOptions options = listed(call, tmTextureDefaults());
   options.channel = firstChannel(call);
@@ -21,7 +21,7 @@ void texture(Run& run, const Step& s) {
   call.services.texture(call.host, call.g, call.text(0), &options, call.number(2), call.number(3), channels(call));
 }
 
-void environment(Run& run, const Step& s) {
+void environment(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   TmTextureOptions options = listed(call, tmTextureDefaults());
   options.channel = firstChannel(call);
@@ -29,7 +29,7 @@ void environment(Run& run, const Step& s) {
   call.services.environment(call.host, call.g, call.text(0), &options, call.triple(2), channels(call));
 }
 
-void textureInfo(Run& run, const Step& s) {
+void textureInfo(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   int32_t type = 0;
   TmValue v{};

@@ -31,7 +31,7 @@ TmValue given(Call& call, int32_t to, bool triple) {
   return {{v.x, v.y, v.z}, 1, 1, nullptr};
 }
 
-void plugin(Run& run, const Step& s) {
+void plugin(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const Builtin& function = *run.program.code().plugins[static_cast<size_t>(s.of->extra)];
   std::vector<TmValue> args;

@@ -5,19 +5,19 @@
 namespace tomales::compiler {
 namespace {
 
-void trace(Run& run, const Step& s) {
+void trace(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmRayOptions options = listed(call, tmRayDefaults());
   call.services.trace(call.host, call.g, &options, call.triple(0), call.triple(1), call.giveTriple(), nullptr);
 }
 
-void traceDistance(Run& run, const Step& s) {
+void traceDistance(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmRayOptions options = listed(call, tmRayDefaults());
   call.services.trace(call.host, call.g, &options, call.triple(0), call.triple(1), TmVec3{}, call.giveNumber());
 }
 
-void transmission(Run& run, const Step& s) {
+void transmission(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmRayOptions options = listed(call, tmRayDefaults());
   const TmConstVec3 from = call.triple(0), to = call.triple(1);
@@ -33,7 +33,7 @@ void transmission(Run& run, const Step& s) {
 }
 
 /// occlusion() gives a number, indirectdiffuse() a color. Both take P, N and samples, and settings.
-void hemisphere(Run& run, const Step& s) {
+void hemisphere(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   rsl::HemisphereList list = listed(call, rsl::HemisphereList());
   if (call.has(2)) list.rays.samples = call.whole(2, "numbers of samples");
@@ -57,7 +57,7 @@ bool setCategory(const std::string& category, TmRayOptions& options) {
   return true;
 }
 
-void runBody(Run& run, const Step& s, size_t block, uint8_t* on, bool any) {
+void runBody(Run& run, const PreparedInstruction& s, size_t block, uint8_t* on, bool any) {
   if (!any || !run.mask->any || block >= s.blocks.size()) return;
   const Narrowed inner(run, on);
   execute(run, s.blocks[block]);
@@ -65,7 +65,7 @@ void runBody(Run& run, const Step& s, size_t block, uint8_t* on, bool any) {
 
 /// Implements sl::gather(): rays are even over the cone unless "distribution" is "cosine"; entries to be filled are
 /// outputs.
-void gather(Run& run, const Step& s) {
+void gather(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const std::string category = call.has(0) ? call.text(0) : "";
   std::vector<TmChannel> outputs;

@@ -9,7 +9,7 @@ namespace {
 
 /// The change of a value over one micropolygon. Pure, so it works on all points, active or not.
 template <int direction>
-void step(Run& run, const Step& s) {
+void step(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const int32_t from = s.of->in[0], to = s.of->out[0], width = floatsOf(run.reg(to));
   const Lanes &in = run.lane(from), &out = run.lane(to);
@@ -27,19 +27,19 @@ void step(Run& run, const Step& s) {
   }
 }
 
-void calculateNormal(Run& run, const Step& s) {
+void calculateNormal(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   call.services.calculateNormal(call.host, call.g, call.triple(0), call.giveTriple());
 }
 
-void transformSpace(Run& run, const Step& s) {
+void transformSpace(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   call.services.transform(call.host, call.g, s.of->extra, call.text(0), call.text(1), call.triple(2),
                           call.giveTriple());
 }
 
 /// Asks where a space has the origin and the ends of the axes of another; a fifth point tells if the map is affine.
-void spaceMatrix(Run& run, const Step& s) {
+void spaceMatrix(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const auto n = static_cast<size_t>(run.padded);
   float* const place = run.memory.floats(3 * n);
@@ -77,7 +77,7 @@ void randomInto(Call& call, const float* x, const float* y, float* out) {
 }
 
 template <int numbers>
-void random(Run& run, const Step& s) {
+void random(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const auto n = static_cast<size_t>(run.padded);
   float *const x = run.memory.floats(n), *const y = run.memory.floats(n);
@@ -91,7 +91,7 @@ void random(Run& run, const Step& s) {
 }
 
 /// Gives one number to all points on surfaces of one name, as sl::randomGrid().
-void randomGrid(Run& run, const Step& s) {
+void randomGrid(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   uint32_t hash = 0;
   int32_t type = 0;

@@ -9,14 +9,14 @@ namespace {
 
 /// Runs a kernel that takes `inputs` whole registers.
 template <size_t inputs>
-void runKernel(Run& run, const Step& s) {
+void runKernel(Run& run, const PreparedInstruction& s) {
   Lanes in[inputs];
   for (size_t k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
   s.kernel(s.uniform ? 1 : run.blocks, run.lanes[s.out], in);
 }
 
-/// Does the same for a kernel with more inputs than a Step holds.
-void runLongKernel(Run& run, const Step& s) {
+/// Does the same for a kernel with more inputs than a PreparedInstruction holds.
+void runLongKernel(Run& run, const PreparedInstruction& s) {
   constexpr size_t kMostInputs = 16;
   const std::vector<int32_t>& from = s.of->in;
   Lanes in[kMostInputs];
@@ -26,7 +26,7 @@ void runLongKernel(Run& run, const Step& s) {
 
 /// Runs a kernel once for each component. Numbers count for all components.
 template <size_t inputs>
-void runByComponent(Run& run, const Step& s) {
+void runByComponent(Run& run, const PreparedInstruction& s) {
   Lanes in[inputs], out = run.lanes[s.out];
   for (size_t k = 0; k < inputs; ++k) in[k] = run.lanes[s.in[k]];
   const int blocks = s.uniform ? 1 : run.blocks;
@@ -50,7 +50,7 @@ std::array<Execute, kOps> made() {
 
 }  // namespace
 
-Execute runnerOf(const Step& s) {
+Execute runnerOf(const PreparedInstruction& s) {
   static constexpr Execute kWhole[] = {runKernel<1>, runKernel<2>, runKernel<3>, runKernel<4>},
                            kByComponent[] = {runByComponent<1>, runByComponent<2>, runByComponent<3>,
                                              runByComponent<4>};

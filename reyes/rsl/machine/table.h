@@ -2,14 +2,14 @@
 #pragma once
 #include <span>
 
-#include "reyes/rsl/machine/frame.h"
+#include "reyes/rsl/machine/run.h"
 
 namespace tomales::compiler {
 
 /// Returns the function for an instruction that has no kernel. Never null for those.
 Execute executeOf(Op op);
-/// Returns the function that calls the kernel of a step.
-Execute runnerOf(const Step& s);
+/// Returns the function that calls the kernel of an instruction.
+Execute runnerOf(const PreparedInstruction& s);
 
 /// Runs Op::Component where the component is constant.
 Execute componentRunner();

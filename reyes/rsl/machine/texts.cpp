@@ -10,15 +10,15 @@ void setNumber(Run& run, int32_t to, float value) {
   std::fill_n(run.lane(to).data, run.varies(to) ? run.padded : kBlock, value);
 }
 
-void textEqual(Run& run, const Step& s) {
+void textEqual(Run& run, const PreparedInstruction& s) {
   setNumber(run, s.of->out[0], run.text(s.of->in[0]) == run.text(s.of->in[1]) ? 1.0f : 0.0f);
 }
 
-void match(Run& run, const Step& s) {
+void match(Run& run, const PreparedInstruction& s) {
   setNumber(run, s.of->out[0], rsl::match(run.text(s.of->in[0]), run.text(s.of->in[1])) ? 1.0f : 0.0f);
 }
 
-void concat(Run& run, const Step& s) {
+void concat(Run& run, const PreparedInstruction& s) {
   std::string all;
   for (const int32_t r : s.of->in) all += run.text(r);
   run.variableText(s.of->out[0]) = std::move(all);
@@ -50,16 +50,18 @@ std::string formatted(const Run& run, const Instruction& of, int32_t i) {
   return rsl::formatTexts(run.text(of.in[0]), values);
 }
 
-void format(Run& run, const Step& s) { run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive()); }
+void format(Run& run, const PreparedInstruction& s) {
+  run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive());
+}
 
 /// Prints a line for each active point (RISpec 15.5).
-void print(Run& run, const Step& s) {
+void print(Run& run, const PreparedInstruction& s) {
   const TmGrid* const g = run.asking();
   for (int32_t i = 0; i < run.count; ++i)
     if (run.mask->on[i]) g->call->print(g->host, g, formatted(run, *s.of, i).c_str());
 }
 
-void report(Run& run, const Step& s) { run.missing(run.text(s.of->in[0])); }
+void report(Run& run, const PreparedInstruction& s) { run.missing(run.text(s.of->in[0])); }
 
 constexpr Row kTextRows[] = {{Op::TextEqual, textEqual}, {Op::Match, match}, {Op::Concat, concat},
                              {Op::Format, format},       {Op::Print, print}, {Op::Report, report}};

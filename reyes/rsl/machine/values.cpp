@@ -33,7 +33,7 @@ void write(const Run& run, int32_t to, int32_t i, ptrdiff_t c, float x) {
     std::fill_n(out, kBlock, x);
 }
 
-void colorTransform(Run& run, const Step& s) {
+void colorTransform(Run& run, const PreparedInstruction& s) {
   const rsl::ColorSpace from = rsl::colorSpaceOf(run.text(s.of->in[0])),
                         into = rsl::colorSpaceOf(run.text(s.of->in[1]));
   const int32_t to = s.of->out[0];
@@ -72,7 +72,7 @@ float curve(rsl::Basis basis, bool solved, float x, const std::vector<float>& kn
 }
 
 /// Bases are those of reyes/shader/noise.h, "solve..." their inverses.
-void spline(Run& run, const Step& s) {
+void spline(Run& run, const PreparedInstruction& s) {
   constexpr std::string_view kSolve = "solve";
   std::string name = run.text(s.of->in[0]);
   const bool solved = name.starts_with(kSolve);

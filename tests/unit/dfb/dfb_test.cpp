@@ -35,6 +35,7 @@ Shot smallShot() {
   shot.scene.groups.push_back({attributes, mat4(2.0f), {{"s", Storage::Vertex, ValueType::Float, 1, {}}}, 1});
   shot.scene.lights = {std::make_shared<LightCall>(LightCall{{"pointlight", {}, {}, {}}, "key", false, true, 0})};
   shot.scene.worldFromNamed["table"] = mat4(3.0f);
+  shot.scene.worldFromOpenings = {mat4(4.0f)};
   shot.frame.crop = shot.frame.padded = {0, 0, 4, 2};
   shot.frame.bucketWidth = shot.frame.bucketHeight = 2;
   shot.frame.columns = 2;
@@ -108,6 +109,7 @@ TEST_F(Dfb, HoldsWhatShadingNeedsOfTheScene) {
   EXPECT_FALSE(hasGeometry(s.scene));
   EXPECT_TRUE(s.scene.lights.at(0)->castsShadows);
   EXPECT_EQ(s.scene.worldFromNamed.at("table"), mat4(3.0f));
+  EXPECT_EQ(s.scene.worldFromOpenings, std::vector<mat4>{mat4(4.0f)});
   EXPECT_EQ(s.seed, 5u);
   EXPECT_EQ(s.sources, smallShot().sources);
   EXPECT_EQ(s.world, 2);

@@ -195,12 +195,12 @@ TEST(SpotAim, ItsDensityIsThatOfItsDirections) {
   int inside = 0;
   for (uint32_t i = 0; i < kCount; ++i) {
     const vec3 d = aim.direction(sobol1(i, 1), sobol2(i, 2));
-    const float density = aim.density(d);
+    const float density = aim.pdf(d);
     ASSERT_GT(density, 0);
     covered += 1.0 / density / kCount;
     const vec2 xi = sobol2(i, 3);  // over the cone of half angle 45 degrees around +z
     const float z = 1 - xi.x * (1 - std::sqrt(0.5f)), r = std::sqrt(1 - z * z);
-    const float uniform = aim.density({r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z});
+    const float uniform = aim.pdf({r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z});
     integral += uniform / kCount;
     inside += uniform > 0;
   }

@@ -304,7 +304,7 @@ TEST(GatherPass, TheHessiansOwnRadiusGrowsWithTheFourthRootOfMaxErrorAndItsFloor
   const auto planned = [&](float maxError) {
     const auto services = world.use({.maxError = maxError, .errorFunction = ErrorFunction::Hessian});
     gatherFrame(*services, frameOf(world, 64));
-    return services->caches().at(0).plan;
+    return services->caches().at(0).key;
   };
   for (const float maxError : {0.5f, 4.0f}) {
     const CacheSettings &some = planned(maxError).cache, &one = planned(1).cache;

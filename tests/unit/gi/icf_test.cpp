@@ -34,9 +34,9 @@ TEST(Records, SayTheSameToEveryCamera) {
     const auto ask = [&](const mat4& m, float scale) {
       IrradianceShot shot;
       shot.cameraFromWorld = mat4(1.0f);
-      GatherPlan plan;
-      plan.cache = {function, 1};
-      shot.caches.push_back({plan, IrradianceCache({vec3(-1), vec3(1)}, plan.cache)});
+      CacheKey key;
+      key.cache = {function, 1};
+      shot.caches.push_back({key, IrradianceCache({vec3(-1), vec3(1)}, key.cache)});
       shot.caches[0].cache.restore(r);
       moveToCamera(shot, m);
       const vec3 normal = normalizeOr(transformVector(m, n), vec3(0));

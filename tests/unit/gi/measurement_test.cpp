@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gi/photons/stream.h"
+#include "gi/photons/sources.h"
 #include "reyes/base/parallel.h"
 #include "tests/unit/gi/fixture.h"
 
@@ -43,12 +43,12 @@ std::vector<MeasurementPoint> pointsOnSphere(int bounces) {
 PhotonMeasurement measured(World& world, std::vector<MeasurementPoint> points, const PhotonSettings& settings,
                            const std::vector<float>& scales) {
   const auto services = world.use({.mode = GiMode::None});
-  const PhotonStream stream(world.rays, world.shading, settings, world.log);
-  PhotonMeasurement out(std::move(points), stream.power());
+  const PhotonSources sources(world.rays, world.shading, settings, world.log);
+  PhotonMeasurement out(std::move(points), sources.power());
   uint32_t seed = 1;
   for (const float scale : scales) {
     out.beginPass(scale);
-    stream.pass(seed++, [&](std::span<const StoredPhoton> photons) { out.count(photons); });
+    sources.pass(seed++, [&](std::span<const StoredPhoton> photons) { out.count(photons); });
   }
   return out;
 }

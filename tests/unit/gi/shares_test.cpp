@@ -89,17 +89,17 @@ TEST_P(Shares, AddUpToTheWholeAndFollowGains) {
   EXPECT_GT(served, 50);
 }
 
-TEST(KeptMix, IsThatOfTheGainsAskedForAndOfEveryRecord) {
+TEST(CachedMix, IsThatOfTheGainsAskedForAndOfEveryRecord) {
   IrradianceCache cache = plane(ErrorFunction::Screen);
   const std::vector<vec3> second{vec3(0), vec3(1), vec3(0)}, red{vec3(1), vec3(2, 0, 0.5f), vec3(1)};
   const auto isMixed = [&](const std::vector<vec3>& gains) {
     const std::vector<LightShare> fresh = cache.mixed(gains);
-    const std::span<const LightShare> kept = cache.keptMix(gains);
+    const std::span<const LightShare> kept = cache.cachedMix(gains);
     return std::ranges::equal(kept, fresh, {}, &LightShare::E, &LightShare::E);
   };
   EXPECT_TRUE(isMixed(second));
-  const LightShare* place = cache.keptMix(second).data();
-  EXPECT_EQ(cache.keptMix(second).data(), place);
+  const LightShare* place = cache.cachedMix(second).data();
+  EXPECT_EQ(cache.cachedMix(second).data(), place);
   EXPECT_TRUE(isMixed(red));
   const IrradianceRecord more = cache.records()[0];
   cache.restore(more);

@@ -125,12 +125,12 @@ TEST(SpotAim, LightIsThatOfASmallSourceAsItLooksFromThePoint) {
               area * std::sqrt(0.5f) / (kPi * 3200) * (std::sqrt(0.5f) + s.radius / glm::length(vec2(40))), 1e-6f);
   EXPECT_NEAR(ahead.radiance(0), 15, 1e-4f);
   EXPECT_EQ(SpotAim(rectangles, {0, 0, 50}, {0, 0, -1}).irradiance(), 0) << "it shines to the other side";
-  EXPECT_NEAR(ahead.density({0, 0, 1}), 1600 / area, 1e-2f);
+  EXPECT_NEAR(ahead.pdf({0, 0, 1}), 1600 / area, 1e-2f);
   const vec3 edge = s.center + 0.999f * s.halfU, beyond = s.center + 1.01f * s.halfU;
-  EXPECT_NEAR(ahead.density(glm::normalize(edge)), dot(edge, edge) / area * glm::length(edge) / edge.z, 1e-2f);
-  EXPECT_EQ(ahead.density(glm::normalize(beyond)), 0);
-  EXPECT_EQ(ahead.density(glm::normalize(s.center + 1.01f * s.halfV)), 0);
-  EXPECT_EQ(ahead.density({0, 0, -1}), 0);
+  EXPECT_NEAR(ahead.pdf(glm::normalize(edge)), dot(edge, edge) / area * glm::length(edge) / edge.z, 1e-2f);
+  EXPECT_EQ(ahead.pdf(glm::normalize(beyond)), 0);
+  EXPECT_EQ(ahead.pdf(glm::normalize(s.center + 1.01f * s.halfV)), 0);
+  EXPECT_EQ(ahead.pdf({0, 0, -1}), 0);
 }
 
 TEST(SpotAim, ASphereIsAConeOfEvenDirections) {
@@ -140,19 +140,19 @@ TEST(SpotAim, ASphereIsAConeOfEvenDirections) {
   const float radius = spots.spots().at(0).radius, sine = radius / 40, cosine = std::sqrt(1 - sine * sine);
   const SpotAim aim(spots, {0, 0, 0}, {0, 0, 1});
   EXPECT_NEAR(aim.coverage(), sine * sine, 1e-6f);
-  EXPECT_NEAR(aim.density({0, 0, 1}), 1 / (2 * kPi * (1 - cosine)), 0.1f);
-  EXPECT_GT(aim.density(glm::normalize(vec3(0.99f * sine, 0, cosine))), 0);
-  EXPECT_EQ(aim.density(glm::normalize(vec3(1.01f * sine, 0, cosine))), 0);
+  EXPECT_NEAR(aim.pdf({0, 0, 1}), 1 / (2 * kPi * (1 - cosine)), 0.1f);
+  EXPECT_GT(aim.pdf(glm::normalize(vec3(0.99f * sine, 0, cosine))), 0);
+  EXPECT_EQ(aim.pdf(glm::normalize(vec3(1.01f * sine, 0, cosine))), 0);
   float within = 0, found = 0;
   for (uint32_t i = 0; i < 4096; ++i) {
     const vec3 d = aim.direction(0.5f, sobol2(i, 3));
     EXPECT_LE(1 - d.z, 1.001f * (1 - cosine));
-    EXPECT_GT(aim.density(d), 0);
+    EXPECT_GT(aim.pdf(d), 0);
     within += 1 - d.z < 0.5f * (1 - cosine) ? 1.0f / 4096 : 0.0f;
     const vec3 p = aim.probe(0, sobol2(i, 4));
     found = std::max(found, 1 - p.z);
   }
-  EXPECT_GT(aim.density(aim.direction(0.5f, {0.99999f, 0.3f})), 0) << "its rim is its own, whatever is rounded";
+  EXPECT_GT(aim.pdf(aim.direction(0.5f, {0.99999f, 0.3f})), 0) << "its rim is its own, whatever is rounded";
   EXPECT_NEAR(within, 0.5f, 0.01f);
   EXPECT_NEAR(found / (1 - cosine), 1 / (marginOf(8) * marginOf(8)), 0.01f) << "where hits were";
   EXPECT_EQ(SpotAim(spots, {0, 0, 40 - 2.99f * radius}, {0, 0, 1}).targets(), 0u) << "rays find what is so near";
@@ -166,8 +166,8 @@ TEST(SpotAim, DensityIsThatOfBallsAndOfRectanglesTogether) {
     const BrightSpots spots = spotsOf({ball, rectangle({-side * 20, 0, 40}, {0, 1, 0}, {1, 0, 0})});
     ASSERT_EQ(spots.spots().size(), 2u);
     const SpotAim aim(spots, {0, 0, 0}, {0, 0, 1});
-    EXPECT_GT(aim.density(glm::normalize(vec3(20, 0, 40))), 0);
-    EXPECT_GT(aim.density(glm::normalize(vec3(-20, 0, 40))), 0);
+    EXPECT_GT(aim.pdf(glm::normalize(vec3(20, 0, 40))), 0);
+    EXPECT_GT(aim.pdf(glm::normalize(vec3(-20, 0, 40))), 0);
   }
 }
 
@@ -193,7 +193,7 @@ TEST(SpotAim, PlacesAndTargetsAreChosenByTheirShares) {
     EXPECT_GT(d.x * d.y, 0) << "nothing is aimed at what is hidden";
     right += d.x > 0 ? 1.0f / 3000 : 0;
     if (d.x < 0) x += d.x / d.z * 40 / 2000;
-    density = std::max(density, aim.density(d));
+    density = std::max(density, aim.pdf(d));
   }
   EXPECT_NEAR(right, 1.0f / 3, 0.001f);
   EXPECT_NEAR(x, -20, 0.02f) << "the mean of its places";

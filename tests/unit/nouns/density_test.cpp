@@ -26,10 +26,10 @@ TEST(Density, OfEqualPointsIsTheirNumberTimesTheirDistance) {
     vec3 from(3.3f), along(0);
     from[axis] = -50;
     along[axis] = 1;
-    EXPECT_NEAR(grid.amount(from, along, 0, 100), 2 * 16, 1e-4) << axis;
+    EXPECT_NEAR(grid.columnDensity(from, along, 0, 100), 2 * 16, 1e-4) << axis;
     from[axis] = 50;
     along[axis] = -1;
-    EXPECT_NEAR(grid.amount(from, along, 0, 100), 2 * 16, 1e-4) << axis;
+    EXPECT_NEAR(grid.columnDensity(from, along, 0, 100), 2 * 16, 1e-4) << axis;
   }
 }
 
@@ -38,42 +38,43 @@ TEST(Density, OfAProductOfCoordinatesIsExact) {
   const DensityGrid grid = lattice(ivec3(0), ivec3(20), [](int x, int y, int z) { return float(x * y * z); });
   const vec3 along = glm::normalize(vec3(1));
   const float length = 10 * std::sqrt(3.0f);
-  EXPECT_NEAR(grid.amount(vec3(0), along, 0, length), std::sqrt(3.0) * 1e4 / 4, 0.05);
+  EXPECT_NEAR(grid.columnDensity(vec3(0), along, 0, length), std::sqrt(3.0) * 1e4 / 4, 0.05);
   const auto slanted = [](double t) { return (1 + 2 * t) * (3 + t) * (15 - 3 * t); };
   double sum = 0;
   for (int i = 0; i < 4000; ++i) sum += slanted((i + 0.5) / 1000) / 1000;
-  EXPECT_NEAR(grid.amount({1, 3, 15}, {2, 1, -3}, 0, 4), sum, 1e-3);
+  EXPECT_NEAR(grid.columnDensity({1, 3, 15}, {2, 1, -3}, 0, 4), sum, 1e-3);
 }
 
 TEST(Density, IsFoundBehindEmptyBricks) {
   const DensityGrid grid = lattice(ivec3(0), ivec3(200, 3, 3), [](int x, int, int) { return x == 190 ? 1.0f : 0.0f; });
-  EXPECT_NEAR(grid.amount({-5, 1.5f, 1.5f}, {1, 0.001f, 0}, 0, 300), 1, 1e-4);
-  EXPECT_NEAR(grid.amount({205, 1.5f, 1.5f}, {-1, 0, 0}, 0, 300), 1, 1e-4);
-  EXPECT_EQ(grid.amount({-5, 1.5f, 1.5f}, {1, 0, 0}, 0, 100), 0);
+  EXPECT_NEAR(grid.columnDensity({-5, 1.5f, 1.5f}, {1, 0.001f, 0}, 0, 300), 1, 1e-4);
+  EXPECT_NEAR(grid.columnDensity({205, 1.5f, 1.5f}, {-1, 0, 0}, 0, 300), 1, 1e-4);
+  EXPECT_EQ(grid.columnDensity({-5, 1.5f, 1.5f}, {1, 0, 0}, 0, 100), 0);
 }
 
 TEST(Density, IsFoundThroughATransformation) {
   const mat4 indexFromObject = glm::scale(glm::rotate(mat4(1.0f), 0.7f, vec3(0, 0, 1)), vec3(4));
   const DensityGrid grid = lattice(
       ivec3(-9), ivec3(9), [](int, int, int) { return 1.0f; }, indexFromObject);
-  EXPECT_NEAR(grid.amount({-0.5f, 0, 0}, {1, 0, 0}, 0, 1), 1, 1e-5);
+  EXPECT_NEAR(grid.columnDensity({-0.5f, 0, 0}, {1, 0, 0}, 0, 1), 1, 1e-5);
 }
 
-TEST(Density, OfAWayIsWhatItIsWithoutOne) {
+TEST(Density, AlongARayAddsUpToItsColumnDensity) {
   const DensityGrid grid = lattice(ivec3(0), ivec3(40), [](int x, int y, int z) {
     return x / 8 % 2 == 1 ? 0.0f : float((x * 7 + y * 3 + z * 5) % 11);
   });
   const vec3 from(-3, 5.2f, 7.7f), along = glm::normalize(vec3(1, 0.4f, 0.3f));
-  DensityWay way;
+  DensityAlongRay way;
   grid.cross(from, along, 1, 44, 2, way);
-  EXPECT_NEAR(way.amount(), 2 * grid.amount(from, along, 1, 44), 1e-3f * way.amount());
-  for (const DensityWay::Knot& k : way.knots)
-    EXPECT_NEAR(k.amount, 2 * grid.amount(from, along, 1, 1 + k.distance / 2), 1e-3f * way.amount());
-  for (float amount = 1; amount < way.amount(); amount += 0.7f) {
-    const DensityWay::Place there = way.atAmount(amount), back = way.atDistance(there.distance);
-    EXPECT_NEAR(back.amount, amount, 1e-3f);
+  EXPECT_NEAR(way.columnDensity(), 2 * grid.columnDensity(from, along, 1, 44), 1e-3f * way.columnDensity());
+  for (const DensityAlongRay::Knot& k : way.knots)
+    EXPECT_NEAR(k.columnDensity, 2 * grid.columnDensity(from, along, 1, 1 + k.distance / 2),
+                1e-3f * way.columnDensity());
+  for (float amount = 1; amount < way.columnDensity(); amount += 0.7f) {
+    const DensityAlongRay::Place there = way.atColumnDensity(amount), back = way.atDistance(there.distance);
+    EXPECT_NEAR(back.columnDensity, amount, 1e-3f);
     EXPECT_GT(there.density, 0);
-    EXPECT_NEAR(2 * grid.amount(from, along, 1, 1 + there.distance / 2), amount, 3) << "within a cell";
+    EXPECT_NEAR(2 * grid.columnDensity(from, along, 1, 1 + there.distance / 2), amount, 3) << "within a cell";
   }
 }
 

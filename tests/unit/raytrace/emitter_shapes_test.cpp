@@ -32,7 +32,7 @@ std::vector<vec3> eyes(const EmitterShape& s) {
 
 TEST(EmitterShapes, AFaceOfACubeSeenFromItsMiddleFillsASixthOfTheSphere) {
   const SeenPoint p = sampleSolidAngle(square(1, 1), vec3(0), {0.3f, 0.8f});
-  EXPECT_NEAR(1 / p.density, 4 * kPi / 6, 1e-5f);
+  EXPECT_NEAR(1 / p.pdf, 4 * kPi / 6, 1e-5f);
 }
 
 TEST(EmitterShapes, ThePlaneOfALampIsDarkOnWhicheverSideRoundingPutsItsPoints) {
@@ -41,23 +41,23 @@ TEST(EmitterShapes, ThePlaneOfALampIsDarkOnWhicheverSideRoundingPutsItsPoints) {
     for (uint32_t i = 0; i < 200; ++i) {
       const vec2 at = sobol2(i, 3) * 1.4f - 0.7f;
       const vec3 P = lamp.center + at.x * lamp.u + at.y * lamp.v + 1e-6f * (sobol1(i, 4) - 0.5f) * lamp.normal;
-      EXPECT_EQ(sampleSolidAngle(lamp, P, sobol2(i, 5)).density, 0);
-      EXPECT_EQ(meet(lamp, P, -lamp.normal).density, 0);
+      EXPECT_EQ(sampleSolidAngle(lamp, P, sobol2(i, 5)).pdf, 0);
+      EXPECT_EQ(meet(lamp, P, -lamp.normal).pdf, 0);
     }
-    EXPECT_GT(sampleSolidAngle(lamp, lamp.center + 1e-3f * lamp.normal, {0.5f, 0.5f}).density, 0);
+    EXPECT_GT(sampleSolidAngle(lamp, lamp.center + 1e-3f * lamp.normal, {0.5f, 0.5f}).pdf, 0);
   }
 }
 
 TEST(EmitterShapes, ASphereFillsItsCone) {
   const EmitterShape s{Kind::Sphere, {0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_NEAR(1 / sampleSolidAngle(s, vec3(0), {0.3f, 0.8f}).density, 2 * kPi * (1 - std::sqrt(0.75f)), 1e-5f);
-  EXPECT_EQ(sampleSolidAngle(s, {0, 0, 2.5f}, {0.3f, 0.8f}).density, 0) << "from inside it is dark";
+  EXPECT_NEAR(1 / sampleSolidAngle(s, vec3(0), {0.3f, 0.8f}).pdf, 2 * kPi * (1 - std::sqrt(0.75f)), 1e-5f);
+  EXPECT_EQ(sampleSolidAngle(s, {0, 0, 2.5f}, {0.3f, 0.8f}).pdf, 0) << "from inside it is dark";
 }
 
 TEST(EmitterShapes, ADiskOnItsAxisFillsItsCone) {
   const EmitterShape s{Kind::Disk, {0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
   for (uint32_t i = 0; i < 16; ++i)
-    EXPECT_NEAR(1 / sampleSolidAngle(s, vec3(0), sobol2(i, 3)).density, 2 * kPi * (1 - 2 / std::sqrt(5.0f)), 1e-5f);
+    EXPECT_NEAR(1 / sampleSolidAngle(s, vec3(0), sobol2(i, 3)).pdf, 2 * kPi * (1 - 2 / std::sqrt(5.0f)), 1e-5f);
 }
 
 class EveryShape : public ::testing::TestWithParam<Kind> {};
@@ -67,7 +67,7 @@ TEST_P(EveryShape, ShinesFromOneSideAlone) {
   if (s.kind == Kind::Sphere) return;
   for (const vec3& eye : eyes(s))
     if (const SeenPoint p = sampleSolidAngle(s, eye, {0.4f, 0.6f}); dot(eye - s.center, s.normal) < -1e-4f) {
-      EXPECT_EQ(p.density, 0);
+      EXPECT_EQ(p.pdf, 0);
     }
 }
 
@@ -76,11 +76,11 @@ TEST_P(EveryShape, ARayToASampleMeetsItWithTheSameDensity) {
   for (const vec3& eye : eyes(s))
     for (uint32_t i = 0; i < 64; ++i) {
       const SeenPoint sample = sampleSolidAngle(s, eye, sobol2(i, 5));
-      if (!(sample.density > 0)) continue;
+      if (!(sample.pdf > 0)) continue;
       const SeenPoint met = meet(s, eye, glm::normalize(sample.P - eye));
-      if (met.density == 0) continue;  // rounding at the rim
+      if (met.pdf == 0) continue;  // rounding at the rim
       EXPECT_LT(glm::length(met.P - sample.P), 2e-3f * glm::length(sample.P - eye));
-      EXPECT_NEAR(met.density / sample.density, 1, 2e-3f);
+      EXPECT_NEAR(met.pdf / sample.pdf, 1, 2e-3f);
     }
 }
 
@@ -98,8 +98,8 @@ TEST_P(EveryShape, SendsAsMuchLightAsItsArea) {
         if (density > 0) sum += std::max(0.0, double{dot(glm::normalize(p.P - eye), facing)}) / density / kSamples;
       };
       const SeenPoint a = sampleSolidAngle(s, eye, sobol2(i, 7)), b = sampleArea(s, sobol2(i, 8));
-      add(a, double{a.density}, bySolidAngle);
-      add(b, solidAngleDensity(eye, b.P, b.N, double{b.density}), byArea);
+      add(a, double{a.pdf}, bySolidAngle);
+      add(b, solidAnglePdf(eye, b.P, b.N, double{b.pdf}), byArea);
     }
     EXPECT_NEAR(bySolidAngle / byArea, 1, 5e-3) << "from " << distance;
   }
@@ -110,9 +110,9 @@ TEST_P(EveryShape, SamplesStandForEqualSolidAngles) {
   const EmitterShape s = tilted(GetParam());
   for (const float distance : {1.5f, 4.0f}) {
     const vec3 eye = s.center + distance * glm::normalize(s.normal + vec3(0.6f, 0.2f, 0.1f));
-    const float first = sampleSolidAngle(s, eye, {0.5f, 0.5f}).density;
+    const float first = sampleSolidAngle(s, eye, {0.5f, 0.5f}).pdf;
     for (uint32_t i = 0; i < 64; ++i)
-      EXPECT_NEAR(sampleSolidAngle(s, eye, sobol2(i, 5)).density / first, 1, s.kind == Kind::Disk ? 0.01f : 1e-4f);
+      EXPECT_NEAR(sampleSolidAngle(s, eye, sobol2(i, 5)).pdf / first, 1, s.kind == Kind::Disk ? 0.01f : 1e-4f);
   }
 }
 

@@ -106,8 +106,8 @@ World& trapezia(World& world, int pieces) {
 
 struct Seen {
   vec3 P, N;
-  float density = -1, meetDensity = -1;
-  EmitterPoints out() { return {{&P.x, &P.y, &P.z}, {&N.x, &N.y, &N.z}, &density, &meetDensity}; }
+  float pdf = -1, meetPdf = -1;
+  EmitterPoints out() { return {{&P.x, &P.y, &P.z}, {&N.x, &N.y, &N.z}, &pdf, &meetPdf}; }
 };
 
 TEST(Emitters, DirectionsMeetFlatMeshesWithTheDensityByWhichSamplesWeighThem) {
@@ -119,14 +119,14 @@ TEST(Emitters, DirectionsMeetFlatMeshesWithTheDensityByWhichSamplesWeighThem) {
     const vec2 xi = sobol2(i, 1);
     Seen sampled, met;
     ASSERT_TRUE(emitters.sampleFrom(0, 1, {&eye.x, &eye.y, &eye.z}, &xi.x, &xi.y, sampled.out()));
-    if (!(sampled.density > 0)) continue;
+    if (!(sampled.pdf > 0)) continue;
     const vec3 d = glm::normalize(sampled.P - eye);
     emitters.meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
     const bool isSame = glm::length(met.P - sampled.P) < 1e-4f;
     same += isSame;
     nearer += !isSame && glm::length(met.P - eye) < glm::length(sampled.P - eye);
     if (!isSame) continue;
-    EXPECT_NEAR(met.density / sampled.meetDensity, 1, 1e-3f);
+    EXPECT_NEAR(met.pdf / sampled.meetPdf, 1, 1e-3f);
     EXPECT_GT(dot(met.N, sampled.N), 0.999f);
   }
   EXPECT_GT(same, 700);
@@ -134,7 +134,7 @@ TEST(Emitters, DirectionsMeetFlatMeshesWithTheDensityByWhichSamplesWeighThem) {
   EXPECT_GT(same + nearer, 1500);
 }
 
-// The density of a direction that meets the light, integrated over all directions, is the share of samples that are
+// The pdf of a direction that meets the light, integrated over all directions, is the share of samples that are
 // seen.
 TEST(Emitters, WhatDirectionsMeetAddsUpToTheWholeLight) {
   World world;
@@ -150,7 +150,7 @@ TEST(Emitters, WhatDirectionsMeetAddsUpToTheWholeLight) {
     const vec3 d(r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z);
     Seen met;
     world.rays->emitters().meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
-    sum += 4 * double{kPi} * double{met.density} / kDirections;
+    sum += 4 * double{kPi} * double{met.pdf} / kDirections;
   }
   EXPECT_NEAR(sum, 1, 0.01);
 }
@@ -163,8 +163,8 @@ TEST(Emitters, OfMeshesOfThousandsOfPolygonsNoneAreMet) {
   const float xi = 0.5f;
   emitters.meet(0, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
   emitters.sampleFrom(0, 1, {&eye.x, &eye.y, &eye.z}, &xi, &xi, sampled.out());
-  EXPECT_EQ(met.density, 0);
-  EXPECT_EQ(sampled.meetDensity, 0);
+  EXPECT_EQ(met.pdf, 0);
+  EXPECT_EQ(sampled.meetPdf, 0);
 }
 
 TEST(Emitters, NormalsFollowOrientation) {

@@ -118,18 +118,18 @@ TEST(PointsOfTypeBlobby, WithWidthsThatDoNotFitAreDropped) {
 }
 
 /// What lies along a ray through the only object of a world.
-float amountOf(const Reading& r, const vec3& origin, const vec3& direction) {
-  return r.object(0).shape().density()->amount(origin, direction, 0, 100);
+float columnDensityOf(const Reading& r, const vec3& origin, const vec3& direction) {
+  return r.object(0).shape().density()->columnDensity(origin, direction, 0, 100);
 }
 
 TEST(Volumes, AreAsDenseEverywhereAsOneNumberSays) {
   for (const auto& [density, expected] : {std::pair("", 1.0f), {"\"uniform float density\" [3]", 3.0f}}) {
     const Reading r(inWorld(std::string("Volume \"box\" [-1 1 0 3 2 2.5] [7 8 9] ") + density));
     EXPECT_TRUE(r.log.entries().empty()) << r.codes();
-    EXPECT_NEAR(amountOf(r, {-5, 1, 2.25f}, {1, 0, 0}), 2 * expected, 1e-5f);
-    EXPECT_NEAR(amountOf(r, {0.5f, -5, 2.25f}, {0, 1, 0}), 3 * expected, 1e-5f);
-    EXPECT_NEAR(amountOf(r, {0.5f, 1, -5}, {0, 0, 1}), 0.5f * expected, 1e-5f);
-    EXPECT_EQ(amountOf(r, {1.5f, 1, -5}, {0, 0, 1}), 0);
+    EXPECT_NEAR(columnDensityOf(r, {-5, 1, 2.25f}, {1, 0, 0}), 2 * expected, 1e-5f);
+    EXPECT_NEAR(columnDensityOf(r, {0.5f, -5, 2.25f}, {0, 1, 0}), 3 * expected, 1e-5f);
+    EXPECT_NEAR(columnDensityOf(r, {0.5f, 1, -5}, {0, 0, 1}), 0.5f * expected, 1e-5f);
+    EXPECT_EQ(columnDensityOf(r, {1.5f, 1, -5}, {0, 0, 1}), 0);
   }
 }
 
@@ -143,9 +143,9 @@ TEST(Volumes, AreLinearBetweenTheNumbersOfALatticeWithXFastest) {
                             numbers + "]"));
     EXPECT_TRUE(r.log.entries().empty()) << r.codes();
     // At (x, y, z) it is 1 + (x + 1) + 10 y + 100 (z - 2) / 0.5.
-    EXPECT_NEAR(amountOf(r, {-5, 1.25f, 2.1f}, {1, 0, 0}), 2 * (1 + 1 + 12.5f + 20), 1e-3f);
-    EXPECT_NEAR(amountOf(r, {0.5f, -5, 2.1f}, {0, 1, 0}), 3 * (1 + 1.5f + 15 + 20), 1e-3f);
-    EXPECT_NEAR(amountOf(r, {0.5f, 1.25f, -5}, {0, 0, 1}), 0.5f * (1 + 1.5f + 12.5f + 50), 1e-3f);
+    EXPECT_NEAR(columnDensityOf(r, {-5, 1.25f, 2.1f}, {1, 0, 0}), 2 * (1 + 1 + 12.5f + 20), 1e-3f);
+    EXPECT_NEAR(columnDensityOf(r, {0.5f, -5, 2.1f}, {0, 1, 0}), 3 * (1 + 1.5f + 15 + 20), 1e-3f);
+    EXPECT_NEAR(columnDensityOf(r, {0.5f, 1.25f, -5}, {0, 0, 1}), 0.5f * (1 + 1.5f + 12.5f + 50), 1e-3f);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(Volumes, OfNegativeDensityAreEmptyThere) {
   const Reading r(inWorld("Volume \"box\" [0 1 0 1 0 1] [2 2 2] \"varying float density\" [-1 1 -2 1 0 1 0 1]"));
   ASSERT_EQ(r.log.entries().size(), 1u);
   EXPECT_NE(r.log.entries()[0].message.find("2 of its densities"), std::string::npos) << r.log.entries()[0].message;
-  EXPECT_NEAR(amountOf(r, {-5, 0.5f, 0.5f}, {1, 0, 0}), 0.5f, 1e-5f);
+  EXPECT_NEAR(columnDensityOf(r, {-5, 0.5f, 0.5f}, {1, 0, 0}), 0.5f, 1e-5f);
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ TEST_F(Disney, EmissionAndReflectionsAreAdded) {
   ASSERT_EQ(services.asked.size(), before + 8) << "four distances, and four colours";
   EXPECT_EQ(services.asked.back().number, 3);
   EXPECT_EQ(services.asked.back().count, 4);
-  EXPECT_FALSE(services.asked.back().lampsGlow) << "light samples bring them";
+  EXPECT_FALSE(services.asked.back().seesAreaLights) << "light samples bring them";
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-std::vector<TreeLamp> lampsIn(int count, float radius) {
-  std::vector<TreeLamp> out;
+std::vector<TreeLight> lampsIn(int count, float radius) {
+  std::vector<TreeLight> out;
   for (int i = 0; i < count; ++i) {
     const auto at = [&](uint32_t k) { return 20 * unitFloat(hashCombine(static_cast<uint32_t>(i), k)) - 10; };
     const vec3 center(at(1), at(2), at(3));
@@ -21,28 +21,28 @@ std::vector<TreeLamp> lampsIn(int count, float radius) {
 }
 
 /// Light that lamps bring and of which the tree knows nothing.
-double lightOf(const TreeLamp& lamp, uint32_t number) {
+double lightOf(const TreeLight& lamp, uint32_t number) {
   return double{lamp.power} * (1 + std::sin(static_cast<double>(number)));
 }
 
-DrawnLamp drawn(const LightTree& tree, const LampReceiver& at, const LampCluster& cluster, float xi) {
-  DrawnLamp out{};
+DrawnLight drawn(const LightTree& tree, const LightReceiver& at, const LightCluster& cluster, float xi) {
+  DrawnLight out{};
   tree.draw(at, std::span(&cluster, 1), std::span(&xi, 1), std::span(&out, 1));
   return out;
 }
 
 TEST(LightTree, LightOverProbabilityOfDrawnLampsHasTheSumOfAllLampsAsItsMean) {
-  const std::vector<TreeLamp> lamps = lampsIn(500, 0);
+  const std::vector<TreeLight> lamps = lampsIn(500, 0);
   const LightTree tree(lamps);
   double all = 0;
   for (uint32_t i = 0; i < lamps.size(); ++i) all += lightOf(lamps[i], i);
-  for (const LampReceiver& at : {LampReceiver{{1, 2, 3}, {0, 0, 1}}, LampReceiver{{30, 0, 0}, vec3(0.0f)}}) {
-    std::vector<LampCluster> cut;
+  for (const LightReceiver& at : {LightReceiver{{1, 2, 3}, {0, 0, 1}}, LightReceiver{{30, 0, 0}, vec3(0.0f)}}) {
+    std::vector<LightCluster> cut;
     tree.cut(at, 20, 1, cut);
     EXPECT_LE(cut.size(), 20U);
     double sum = 0;
     constexpr int kDraws = 1 << 14;
-    for (const LampCluster& c : cut)
+    for (const LightCluster& c : cut)
       for (int d = 0; d < kDraws; ++d) {
         const auto [lamp, probability] = drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / kDraws);
         EXPECT_NEAR(tree.expected(at, cut, lamp), probability, 1e-5f * probability);
@@ -53,11 +53,11 @@ TEST(LightTree, LightOverProbabilityOfDrawnLampsHasTheSumOfAllLampsAsItsMean) {
 }
 
 TEST(LightTree, TheFirstLampsAreDrawnAsIfThereWereNoOthers) {
-  const std::vector<TreeLamp> lamps = lampsIn(200, 0.1f);
+  const std::vector<TreeLight> lamps = lampsIn(200, 0.1f);
   const LightTree tree(lamps);
   for (const uint32_t count : {1u, 7u, 130u, 199u, 200u}) {
-    const LampReceiver at{{3, 1, 2}, {0, 1, 0}, count};
-    std::vector<LampCluster> cut;
+    const LightReceiver at{{3, 1, 2}, {0, 1, 0}, count};
+    std::vector<LightCluster> cut;
     tree.cut(at, 20, 1, cut);
     EXPECT_LE(cut.size(), 20u);
     double expected = 0;
@@ -67,29 +67,29 @@ TEST(LightTree, TheFirstLampsAreDrawnAsIfThereWereNoOthers) {
       expected += double{n};
     }
     EXPECT_NEAR(expected, static_cast<double>(cut.size()), 1e-4) << "no draw is lost to other lamps";
-    for (const LampCluster& cluster : cut)
+    for (const LightCluster& cluster : cut)
       for (int k = 0; k < 50; ++k) EXPECT_LT(drawn(tree, at, cluster, (static_cast<float>(k) + 0.5f) / 50).lamp, count);
   }
-  std::vector<LampCluster> none{{0, 1}};
+  std::vector<LightCluster> none{{0, 1}};
   tree.cut({{3, 1, 2}, {0, 1, 0}, 0}, 20, 1, none);
   EXPECT_TRUE(none.empty());
 }
 
 TEST(LightTree, ALampThatOutshinesTheOthersIsDrawnForCertainAndHasMoreSamples) {
-  std::vector<TreeLamp> lamps = lampsIn(200, 0.01f);
+  std::vector<TreeLight> lamps = lampsIn(200, 0.01f);
   lamps[77].power = 1000;
   const LightTree tree(lamps);
-  const LampReceiver at{lamps[77].bound.center() + vec3(0, 0, 1), {0, 0, -1}};
-  std::vector<LampCluster> cut;
+  const LightReceiver at{lamps[77].bound.center() + vec3(0, 0, 1), {0, 0, -1}};
+  std::vector<LightCluster> cut;
   tree.cut(at, 32, 16, cut);
   EXPECT_FLOAT_EQ(tree.expected(at, cut, 77), 16);
   int samples = 0;
-  for (const LampCluster& c : cut) samples += c.samples;
+  for (const LightCluster& c : cut) samples += c.samples;
   EXPECT_LE(samples, 32);
 }
 
 TEST(LightTree, ARayMeetsTheLampsOnItsWayAlone) {
-  const std::vector<TreeLamp> lamps = lampsIn(300, 0.5f);
+  const std::vector<TreeLight> lamps = lampsIn(300, 0.5f);
   const LightTree tree(lamps);
   for (int r = 0; r < 50; ++r) {
     const vec3 P(0.1f * static_cast<float>(r), 0, 0),
@@ -109,9 +109,9 @@ TEST(LightTree, ARayMeetsTheLampsOnItsWayAlone) {
 }
 
 /// The probability with which the root draws lamp 0 of two.
-double shareOfFirst(const TreeLamp& a, const TreeLamp& b, const LampReceiver& at) {
+double shareOfFirst(const TreeLight& a, const TreeLight& b, const LightReceiver& at) {
   const LightTree tree({a, b});
-  std::vector<LampCluster> cut;
+  std::vector<LightCluster> cut;
   tree.cut(at, 1, 1, cut);
   EXPECT_EQ(cut.size(), 1U);
   EXPECT_NEAR(tree.expected(at, cut, 0) + tree.expected(at, cut, 1), 1, 1e-6);
@@ -119,9 +119,9 @@ double shareOfFirst(const TreeLamp& a, const TreeLamp& b, const LampReceiver& at
 }
 
 TEST(LightTree, TheImportanceOfALampIsItsLightAtThePoint) {
-  const auto lampAt = [](const vec3& P, float power, float half = 0) { return TreeLamp{{P - half, P + half}, power}; };
+  const auto lampAt = [](const vec3& P, float power, float half = 0) { return TreeLight{{P - half, P + half}, power}; };
   const vec3 up(0, 0, 1), anywhere(0);
-  const TreeLamp near = lampAt({0, 0, 2}, 3);
+  const TreeLight near = lampAt({0, 0, 2}, 3);
   // Power over squared distance: 3 / 4 against 5 / 9.
   EXPECT_NEAR(shareOfFirst(near, lampAt({3, 0, 0}, 5), {vec3(0), anywhere}), (3.0 / 4) / (3.0 / 4 + 5.0 / 9), 1e-6);
   // The cosine counts for surfaces: 1 against 3/5 at distance 5.
@@ -140,7 +140,7 @@ TEST(LightTree, TheImportanceOfALampIsItsLightAtThePoint) {
 }
 
 TEST(LightTree, FewDrawnLampsOverAFloorBringItsLightWithinTwoPercent) {
-  std::vector<TreeLamp> lamps;
+  std::vector<TreeLight> lamps;
   for (uint32_t i = 0; i < 3000; ++i) {
     const auto at = [&](uint32_t k) { return unitFloat(hashCombine(i, k)); };
     const vec3 place(60 * at(1) - 30, 60 * at(2) - 30, 1.5f + 3 * at(3));
@@ -150,17 +150,17 @@ TEST(LightTree, FewDrawnLampsOverAFloorBringItsLightWithinTwoPercent) {
   double off2 = 0;
   constexpr int kPoints = 300;
   for (uint32_t p = 0; p < kPoints; ++p) {
-    const LampReceiver at{{20 * unitFloat(hashCombine(p, 5U)) - 10, 20 * unitFloat(hashCombine(p, 6U)) - 10, 0},
-                          {0, 0, 1}};
+    const LightReceiver at{{20 * unitFloat(hashCombine(p, 5U)) - 10, 20 * unitFloat(hashCombine(p, 6U)) - 10, 0},
+                           {0, 0, 1}};
     const auto light = [&](uint32_t l) {
       const glm::dvec3 to(lamps[l].bound.center() - at.P);
       return double{lamps[l].power} * to.z / std::pow(dot(to, to), 1.5);
     };
     double all = 0, sum = 0;
     for (uint32_t l = 0; l < lamps.size(); ++l) all += light(l);
-    std::vector<LampCluster> cut;
+    std::vector<LightCluster> cut;
     tree.cut(at, 32, 1, cut);
-    for (const LampCluster& c : cut) {
+    for (const LightCluster& c : cut) {
       const auto [lamp, probability] = drawn(tree, at, c, unitFloat(hashCombine(p, c.node, 7U)));
       sum += light(lamp) / double{probability};
     }
@@ -171,16 +171,16 @@ TEST(LightTree, FewDrawnLampsOverAFloorBringItsLightWithinTwoPercent) {
 
 TEST(LightTree, EveryLampIsInOneClusterOfACut) {
   for (const int count : {1, 2, 3, 50, 333}) {
-    const std::vector<TreeLamp> lamps = lampsIn(count, 0.1f);
+    const std::vector<TreeLight> lamps = lampsIn(count, 0.1f);
     const LightTree tree(lamps);
     for (uint32_t k = 0; k < 40; ++k) {
       const auto at = [&](uint32_t axis) { return 30 * unitFloat(hashCombine(k, axis)) - 15; };
-      const LampReceiver point{{at(7), at(8), at(9)}, k % 2 ? glm::normalize(vec3(at(1), at(2), 3)) : vec3(0)};
+      const LightReceiver point{{at(7), at(8), at(9)}, k % 2 ? glm::normalize(vec3(at(1), at(2), 3)) : vec3(0)};
       const int most = 1 + static_cast<int>(k) % 24, perLamp = 1 << k % 4;
-      std::vector<LampCluster> cut{{99, 99}};
+      std::vector<LightCluster> cut{{99, 99}};
       tree.cut(point, most, perLamp, cut);
       int samples = 0;
-      for (const LampCluster& c : cut) {
+      for (const LightCluster& c : cut) {
         samples += c.samples;
         EXPECT_LE(c.samples, perLamp);
       }
@@ -197,18 +197,18 @@ TEST(LightTree, EveryLampIsInOneClusterOfACut) {
 
 TEST(LightTree, LampsThatLieTogetherAreOneCluster) {
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<TreeLamp> lamps = lampsIn(40, 0);
+    std::vector<TreeLight> lamps = lampsIn(40, 0);
     for (size_t i = 0; i < lamps.size(); ++i) {
       vec3 at = 0.2f * lamps[i].bound.center();
       at[axis] += i % 2 ? 15.0f : -15.0f;
       lamps[i] = {{at, at}, 1};
     }
     const LightTree tree(lamps);
-    const LampReceiver middle{vec3(0), vec3(0)};
-    std::vector<LampCluster> cut;
+    const LightReceiver middle{vec3(0), vec3(0)};
+    std::vector<LightCluster> cut;
     tree.cut(middle, 2, 1, cut);
     ASSERT_EQ(cut.size(), 2U);
-    for (const LampCluster& c : cut) {
+    for (const LightCluster& c : cut) {
       std::set<uint32_t> members;
       for (int d = 0; d < 2000; ++d) members.insert(drawn(tree, middle, c, (static_cast<float>(d) + 0.5f) / 2000).lamp);
       EXPECT_EQ(members.size(), 20U);
@@ -218,10 +218,10 @@ TEST(LightTree, LampsThatLieTogetherAreOneCluster) {
 }
 
 TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
-  const std::vector<TreeLamp> lamps = lampsIn(1000, 0);
+  const std::vector<TreeLight> lamps = lampsIn(1000, 0);
   const LightTree tree(lamps);
-  const LampReceiver at{{0, 0, 0}, vec3(0)};
-  std::vector<LampCluster> cut;
+  const LightReceiver at{{0, 0, 0}, vec3(0)};
+  std::vector<LightCluster> cut;
   tree.cut(at, 1000, 1, cut);
   EXPECT_LT(cut.size(), 1000U);
   double all = 0;
@@ -231,7 +231,7 @@ TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
     all += light[l] = double{lamps[l].power} / double{dot(to, to)};
   }
   int large = 0;
-  for (const LampCluster& c : cut) {
+  for (const LightCluster& c : cut) {
     std::set<uint32_t> members;
     for (int d = 0; d < 500; ++d) members.insert(drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / 500).lamp);
     double sum = 0;
@@ -245,15 +245,15 @@ TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
 
 TEST(LightTree, WithoutLampsNothingIsDrawn) {
   const LightTree tree({});
-  std::vector<LampCluster> cut{{0, 1}};
+  std::vector<LightCluster> cut{{0, 1}};
   tree.cut({vec3(0), vec3(0)}, 4, 1, cut);
   EXPECT_TRUE(cut.empty());
 }
 
 TEST(LightTree, LampsAtOnePlaceAreDividedToo) {
-  const LightTree tree(std::vector<TreeLamp>(100, TreeLamp{{vec3(1), vec3(1)}, 1}));
-  const LampReceiver at{vec3(0), vec3(0)};
-  std::vector<LampCluster> cut;
+  const LightTree tree(std::vector<TreeLight>(100, TreeLight{{vec3(1), vec3(1)}, 1}));
+  const LightReceiver at{vec3(0), vec3(0)};
+  std::vector<LightCluster> cut;
   tree.cut(at, 100, 1, cut);
   EXPECT_EQ(cut.size(), 100U);
 }

@@ -143,8 +143,8 @@ TEST_F(LightUses, HitsOfRaysSketchesAndRehearsalsTellNothing) {
   sun(100);
   ShadeContext hit, sketch, rehearsal;
   hit.kind = RayKind::Diffuse;
-  sketch.sketch = true;
-  rehearsal.rehearsal = true;
+  sketch.purpose = Purpose::Sketch;
+  rehearsal.purpose = Purpose::Rehearsal;
   for (const ShadeContext& context : {hit, sketch, rehearsal}) shadePaper(320, 0, context);
   EXPECT_EQ(said("light-glare"), "");
 }

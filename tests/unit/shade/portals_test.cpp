@@ -40,7 +40,7 @@ Estimate integrate(const Sky& sky, const vec3& P, const vec3& N, const F& f) {
     float density = 0;
     const vec3 L = sky.sample(P, N, sobol2(i, 7), density);
     EXPECT_NEAR(glm::length(L), 1, 1e-4f);
-    EXPECT_EQ(density, sky.density(P, N, L));
+    EXPECT_EQ(density, sky.pdf(P, N, L));
     const double x =
         dot(N, L) > 0 && density > 0 ? double{f(L)} * double{dot(N, L)} / (double{kPi} * double{density}) : 0.0;
     sum += x;
@@ -96,25 +96,24 @@ TEST(SkyPortals, AreDrawnByTheirSolidAnglesAndEvenlyOverTheirAreas) {
   Portals one, two;
   EXPECT_TRUE(one.add(window(1, 0.5f, 2)) && two.add(window(1, 0.5f, 2)) && two.add(window(0.5f, 0.5f, -3)));
   EXPECT_EQ(one.share(P, air), 0.75f);
-  EXPECT_NEAR(one.density(P, air, {1, 0, 0}), 2 * 2 / 0.5f, 1e-4f);
+  EXPECT_NEAR(one.pdf(P, air, {1, 0, 0}), 2 * 2 / 0.5f, 1e-4f);
   const vec3 slanted = glm::normalize(vec3(2, 0, 0.4f));
-  EXPECT_NEAR(one.density(P, air, slanted), (4 + 0.16f) / (0.5f * slanted.x), 1e-3f);
-  EXPECT_EQ(one.density(P, air, {-1, 0, 0}), 0) << "it is in front";
-  EXPECT_EQ(one.density(P, air, {0, 0, 1}), 0) << "along its plane";
+  EXPECT_NEAR(one.pdf(P, air, slanted), (4 + 0.16f) / (0.5f * slanted.x), 1e-3f);
+  EXPECT_EQ(one.pdf(P, air, {-1, 0, 0}), 0) << "it is in front";
+  EXPECT_EQ(one.pdf(P, air, {0, 0, 1}), 0) << "along its plane";
   for (const vec3& edge : {vec3(2, 0, 0.5f), vec3(2, 0, -0.5f), vec3(2, 0.25f, 0), vec3(2, -0.25f, 0)})
     for (const float beyond : {0.99f, 1.01f})
-      EXPECT_EQ(one.density(P, air, glm::normalize(edge * vec3(1, beyond, beyond))) > 0, beyond < 1)
-          << edge.y << edge.z;
+      EXPECT_EQ(one.pdf(P, air, glm::normalize(edge * vec3(1, beyond, beyond))) > 0, beyond < 1) << edge.y << edge.z;
   const float first = 0.5f / 4, second = 0.25f / 9;
-  EXPECT_NEAR(two.density(P, air, {1, 0, 0}), 8 * first / (first + second), 1e-3f);
-  EXPECT_NEAR(two.density(P, air, {-1, 0, 0}), 36 * second / (first + second), 1e-3f);
+  EXPECT_NEAR(two.pdf(P, air, {1, 0, 0}), 8 * first / (first + second), 1e-3f);
+  EXPECT_NEAR(two.pdf(P, air, {-1, 0, 0}), 36 * second / (first + second), 1e-3f);
   int right = 0;
   double high = 0;
   for (uint32_t i = 0; i < 4096; ++i) {
     const vec3 L = two.sample(P, air, sobol2(i, 5));
     right += L.x > 0;
     high += (L.y / std::abs(L.x) > 0) - 0.5;
-    EXPECT_GT(two.density(P, air, L), 0);
+    EXPECT_GT(two.pdf(P, air, L), 0);
   }
   EXPECT_NEAR(right / 4096.0, first / (first + second), 0.002);
   EXPECT_NEAR(high / 4096, 0, 0.01);

@@ -115,13 +115,13 @@ class FakeServices final : public ShadeServices {
       const float cosine = -dot(n, glm::normalize(path));
       set(out.P, i, p);
       set(out.N, i, n);
-      out.density[i] = cosine > 1e-5f ? dot(path, path) / (cosine * area) : 0.0f;
-      out.meetDensity[i] = 0;
+      out.pdf[i] = cosine > 1e-5f ? dot(path, path) / (cosine * area) : 0.0f;
+      out.meetPdf[i] = 0;
     }
     return true;
   }
   void meetEmitter(int, int count, TmConstVec3, TmConstVec3, const EmitterPoints& out) const override {
-    std::fill_n(out.density, count, 0.0f);
+    std::fill_n(out.pdf, count, 0.0f);
   }
   void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3, const IndirectQuery& query,
                        const ShadeContext&, IndirectResult out) const override {
@@ -222,7 +222,7 @@ class Stage : public ::testing::Test {
 
 inline std::vector<vec3> emissionOf(const ShadingSystem& shading, const ShadePoints& points) {
   std::vector<vec3> out;
-  shading.emission(points, out);
+  shading.areaLightRadiance(points, out);
   return out;
 }
 

@@ -1,6 +1,6 @@
-#include "gi/photons/stream.h"
+#include "gi/photons/sources.h"
 
-#include "gi/photons/glow.h"
+#include "gi/photons/emissive_photons.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -29,7 +29,7 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
   // A glowing surface is the first surface of its photons, and a diffuse one.
   const bool glows = settings.maxDepth > 1 && settings.mostBounces > 0 && !settings.focusedOnly;
   if (!glows && !sources.empty()) return sources;
-  auto glow = std::make_unique<GlowPhotons>(rays, shading, settings.seed, log);
+  auto glow = std::make_unique<EmissivePhotons>(rays, shading, settings.seed, log);
   if (sources.empty() && glow->power() <= 0)
     log.report(Severity::Warning, "photons-no-light", scene.where,
                "nothing in the scene emits photons, neither lights nor surfaces: indirect light is black");
@@ -44,7 +44,8 @@ PhotonSettings withDepth(PhotonSettings settings) {
 
 }  // namespace
 
-PhotonStream::PhotonStream(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log)
+PhotonSources::PhotonSources(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
+                             Log& log)
     : settings_(withDepth(settings)), tracer_(rays.scene(), rays, shading, settings_, log) {
   auto sources = sourcesOf(rays, shading, settings_, log);
   for (const auto& s : sources) power_ += s->power();
@@ -54,7 +55,7 @@ PhotonStream::PhotonStream(const RayScene& rays, const ShadingSystem& shading, c
   }
 }
 
-std::vector<PhotonStream::Span> PhotonStream::spansOf(WorkPart part) const {
+std::vector<PhotonSources::Span> PhotonSources::spansOf(WorkPart part) const {
   const auto tasksOf = [](const Sent& s) { return (s.count + kPhotonsPerTask - 1) / kPhotonsPerTask; };
   size_t tasks = 0, before = 0;
   for (const Sent& s : sources_) tasks += tasksOf(s);
@@ -71,8 +72,8 @@ std::vector<PhotonStream::Span> PhotonStream::spansOf(WorkPart part) const {
   return out;
 }
 
-void PhotonStream::trace(const Sent& from, uint32_t seed, size_t first, size_t end,
-                         const std::function<void(size_t, std::vector<StoredPhoton>&&)>& taken) const {
+void PhotonSources::trace(const Sent& from, uint32_t seed, size_t first, size_t end,
+                          const std::function<void(size_t, std::vector<StoredPhoton>&&)>& taken) const {
   const float share = 1 / static_cast<float>(from.count);
   const size_t tasks = (end - first + kPhotonsPerTask - 1) / kPhotonsPerTask;
   parallelFor(tasks, 1, [&](size_t begin, size_t last) {
@@ -85,7 +86,7 @@ void PhotonStream::trace(const Sent& from, uint32_t seed, size_t first, size_t e
   });
 }
 
-int64_t PhotonStream::pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const {
+int64_t PhotonSources::pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const {
   int64_t sum = 0;
   for (const Sent& s : sources_) {
     trace(s, seed, 0, s.count, [&](size_t, std::vector<StoredPhoton>&& photons) { count(photons); });

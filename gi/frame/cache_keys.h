@@ -7,13 +7,13 @@ namespace tomales {
 
 /// Returns the settings of an indirect light as this group sees them: the command line wins over the group's
 /// attributes, and those over the light.
-GatherPlan planFor(const GiState&, int group, const IndirectQuery&);
+CacheKey cacheKeyFor(const GiState&, int group, const IndirectQuery&);
 
-GatherPlan planFor(const GiState&, int group, const HemisphereQuery&);
+CacheKey cacheKeyFor(const GiState&, int group, const HemisphereQuery&);
 
-/// Finds the cache that serves a plan, if there is one. Records that were given serve even where a light or an option
-/// has since been changed: preferably those whose plan differs in its rays alone, else those for the same question.
-std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const GatherPlan&);
+/// Finds the cache that serves a key, if there is one. Records that were given serve even where a light or an option
+/// has since been changed: preferably those whose key differs in its rays alone, else those for the same question.
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const CacheKey&);
 
 /// Returns what a cache with this error function has at `maxError`.
 CacheSettings cacheSettings(ErrorFunction, float maxError);

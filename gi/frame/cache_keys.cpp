@@ -1,4 +1,4 @@
-#include "gi/frame/plans.h"
+#include "gi/frame/cache_keys.h"
 
 namespace tomales {
 namespace {
@@ -20,43 +20,43 @@ CacheSettings cacheSettings(ErrorFunction function, float maxError) {
   return out;
 }
 
-std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const GatherPlan& plan) {
+std::vector<PreparedCache>::const_iterator preparedFor(const GiState& state, const CacheKey& key) {
   const auto find = [&](const auto& serves) { return std::ranges::find_if(state.caches, serves); };
-  const auto prepared = find([&](const PreparedCache& c) { return c.plan == plan; });
-  if (prepared != state.caches.end() || !state.cachesGiven || !(plan.cache.kappa < kInfinity)) return prepared;
+  const auto prepared = find([&](const PreparedCache& c) { return c.key == key; });
+  if (prepared != state.caches.end() || !state.cachesGiven || !(key.cache.kappa < kInfinity)) return prepared;
   const auto withOtherRays = find([&](const PreparedCache& c) {
-    GatherPlan same = c.plan;
-    same.gather.samples = plan.gather.samples;
-    same.gather.seed = plan.gather.seed;
-    return same == plan;
+    CacheKey same = c.key;
+    same.gather.samples = key.gather.samples;
+    same.gather.seed = key.gather.seed;
+    return same == key;
   });
   return withOtherRays != state.caches.end()
              ? withOtherRays
-             : find([&](const PreparedCache& c) { return c.plan.gather.asked == plan.gather.asked; });
+             : find([&](const PreparedCache& c) { return c.key.gather.asked == key.gather.asked; });
 }
 
 bool interpolatesIndirect(const GiState& state) { return giMethodOf(state.settings.mode).caches; }
 
-GatherPlan planFor(const GiState& state, int group, const IndirectQuery& query) {
+CacheKey cacheKeyFor(const GiState& state, int group, const IndirectQuery& query) {
   const Attributes& attributes = *state.scene.groups[static_cast<size_t>(group)].attributes;
   const GiSettings& settings = state.settings;
-  GatherPlan plan;
+  CacheKey key;
   const float maxError =
       settings.maxError >= 0 ? settings.maxError : attributes.irradianceMaxError.value_or(query.maxError);
-  plan.cache = cacheSettings(settings.errorFunction.value_or(query.errorFunction), maxError);
-  plan.gather.curvature = infoOf(plan.cache.errorFunction).needsCurvature() && maxError > 0;
-  if (plan.gather.curvature) plan.gather.maxError = maxError;
-  plan.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(plan.cache.maxPixels);
-  plan.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
-  plan.gather.maxDistance = query.maxDistance;
-  plan.gather.seed = settings.seed;
-  plan.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
-  plan.gather.indirect = bouncesFor(state, query) > 1;
+  key.cache = cacheSettings(settings.errorFunction.value_or(query.errorFunction), maxError);
+  key.gather.curvature = infoOf(key.cache.errorFunction).needsCurvature() && maxError > 0;
+  if (key.gather.curvature) key.gather.maxError = maxError;
+  key.cache.maxPixels = attributes.irradianceMaxPixelDist.value_or(key.cache.maxPixels);
+  key.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
+  key.gather.maxDistance = query.maxDistance;
+  key.gather.seed = settings.seed;
+  key.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
+  key.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) {
-    plan.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored;
-    plan.gather.mirrored = attributes.photon.causticMap.empty();
+    key.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored;
+    key.gather.mirrored = attributes.photon.causticMap.empty();
   }
-  return plan;
+  return key;
 }
 
 int bouncesFor(const GiState& state, const IndirectQuery& query) {

@@ -3,12 +3,12 @@
 
 namespace tomales {
 
-constexpr float kLattice = 1024;  ///< Lattice points along the edge of a pixel, for vertices and samples.
+constexpr float kSubpixels = 1024;  ///< Lattice points along the edge of a pixel, for vertices and samples.
 /// Greatest distance by which a straight border may lie outside of vertices that are snapped to the lattice.
-constexpr float kLineReach_px = 1 / kLattice;
+constexpr float kLineReach_px = 1 / kSubpixels;
 
 /// Returns the nearest lattice point, by the spacing of floats between 2^13 and 2^14. The lattice is coarser beyond
 /// 4096 px.
-inline float snapToLattice(float x) { return (x + 12288.0f) - 12288.0f; }
+inline float snapToSubpixel(float x) { return (x + 12288.0f) - 12288.0f; }
 
 }  // namespace tomales

@@ -5,11 +5,11 @@
 
 namespace tomales {
 
-class PhotonStream {
+class PhotonSources {
  public:
   /// maxDepth 0 becomes kEnoughBounces.
-  PhotonStream(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log);
-  PhotonStream(const PhotonStream&) = delete;
+  PhotonSources(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings, Log& log);
+  PhotonSources(const PhotonSources&) = delete;
 
   struct Sent {
     std::unique_ptr<const PhotonSource> source;

@@ -1,4 +1,4 @@
-#include "reyes/rsl/machine/frame.h"
+#include "reyes/rsl/machine/run.h"
 
 #include <cmath>
 #include <cstring>

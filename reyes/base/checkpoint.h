@@ -15,11 +15,11 @@ namespace tomales {
 /// Everything that is kept; the second number of a name counts results of its kind.
 enum class KeptKind : uint32_t { Identity, GatherSites, GatherRecords, BounceRecords, RadiosityTexels, ShadedTile };
 
-class KeptWork {
+class Checkpoint {
  public:
   /// `identity` names everything that the results depend on: what was kept under another one is dropped. The file is
   /// called PATH.part. Returns null if it cannot be written, which is reported.
-  static std::unique_ptr<KeptWork> create(const std::string& path, const std::string& identity, Log& log);
+  static std::unique_ptr<Checkpoint> create(const std::string& path, const std::string& identity, Log& log);
 
   bool has(KeptKind kind, size_t index) const { return records_->has(nameOf(kind, index)); }
   /// Sets `out` to a result of an earlier run or of this one. Returns false if there is none.
@@ -49,7 +49,7 @@ class KeptWork {
   void forget();
 
  private:
-  KeptWork(const std::string& path, std::unique_ptr<RecordWriter> records, Log& log)
+  Checkpoint(const std::string& path, std::unique_ptr<RecordWriter> records, Log& log)
       : folder_(path + ".maps"), records_(std::move(records)), log_(log) {}
   static RecordName nameOf(KeptKind kind, size_t index) {
     return {static_cast<uint32_t>(kind), static_cast<uint32_t>(index)};

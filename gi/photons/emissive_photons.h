@@ -11,11 +11,11 @@ namespace tomales {
 std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& shading, const std::vector<Ray>& from,
                                   const std::vector<Hit>& hits, const std::vector<SampleName>& names, uint32_t seed);
 
-class GlowPhotons : public PhotonSource {
+class EmissivePhotons : public PhotonSource {
  public:
   /// Samples each object that may glow and that diffuse rays see, to learn where it is how bright. Warns of objects on
   /// which no photon can start.
-  GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
+  EmissivePhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
 
   int light() const override { return -1; }
   double power() const override { return choice_.total(); }

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "reyes/rsl/globals.h"
-#include "reyes/rsl/machine/frame.h"
 #include "reyes/rsl/machine/masks.h"
+#include "reyes/rsl/machine/run.h"
 
 namespace tomales::compiler {
 namespace {

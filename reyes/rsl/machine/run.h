@@ -61,11 +61,12 @@ struct Run {
 /// Lets a register use these arrays of `width` components. Returns false if they do not lie evenly apart.
 bool useArrays(Lanes& l, int32_t width, const float* x, const float* y, const float* z);
 
-/// Sets the registers of globals and parameters before the program runs; store() takes its results (both in given.cpp).
+/// Sets the registers of globals and parameters before the program runs; store() takes its results (both in
+/// host_values.cpp).
 void open(Run& run);
 void store(Run& run);
 
-void execute(Run& run, const Steps& steps);
+void execute(Run& run, const PreparedBlock& block);
 /// Makes all points inactive for the rest of the run.
 void endAll(Run& run);
 

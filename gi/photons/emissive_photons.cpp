@@ -1,4 +1,4 @@
-#include "gi/photons/glow.h"
+#include "gi/photons/emissive_photons.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& sha
   return out;
 }
 
-GlowPhotons::GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log)
+EmissivePhotons::EmissivePhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log)
     : rays_(rays), shading_(shading), seed_(seed) {
   const Scene& scene = rays.scene();
   const Camera camera(scene.options);
@@ -51,7 +51,7 @@ GlowPhotons::GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uin
   std::vector<const Object*> leftOut;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& o = scene.objects[i];
-    if (!shading.emits(o.group) || !o.attributes->visibility.diffuse) continue;
+    if (!shading.surfaceEmits(o.group) || !o.attributes->visibility.diffuse) continue;
     if (hasStarts(o))
       glowing.push_back(static_cast<int>(i));
     else
@@ -79,7 +79,7 @@ GlowPhotons::GlowPhotons(const RayScene& rays, const ShadingSystem& shading, uin
                          leftOut.size() > 1 ? fmt::format("; so do {} objects more", leftOut.size() - 1) : ""));
 }
 
-void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
+void EmissivePhotons::survey(Surface& out, size_t mostProbes) const {
   const size_t polygons = out.mesh->quads.size();
   if (polygons == 0) return;
   out.columns = std::clamp(static_cast<int>(std::sqrt(mostProbes / polygons)), 1, kMostColumns);
@@ -117,7 +117,7 @@ void GlowPhotons::survey(Surface& out, size_t mostProbes) const {
     out.cells.add(double{kPi} * areas[c] * (brightness[c / run] + kUnseenGlow * sum / area));
 }
 
-GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec2 at) {
+EmissivePhotons::Start EmissivePhotons::startIn(const Surface& surface, size_t cell, vec2 at) {
   const auto n = static_cast<size_t>(surface.columns);
   const vec2 corner(static_cast<float>(cell % n), static_cast<float>(cell / n % n)),
       uv = glm::min((corner + at) / static_cast<float>(n), vec2(1));
@@ -146,8 +146,8 @@ GlowPhotons::Start GlowPhotons::startIn(const Surface& surface, size_t cell, vec
   return out;
 }
 
-std::vector<vec3> GlowPhotons::radianceAlong(const std::vector<Start>& starts, const std::vector<vec3>& directions,
-                                             const std::vector<SampleName>& names) const {
+std::vector<vec3> EmissivePhotons::radianceAlong(const std::vector<Start>& starts, const std::vector<vec3>& directions,
+                                                 const std::vector<SampleName>& names) const {
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   for (size_t i = 0; i < starts.size(); ++i) {
@@ -165,19 +165,19 @@ std::vector<vec3> GlowPhotons::radianceAlong(const std::vector<Start>& starts, c
   return out;
 }
 
-void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
+void EmissivePhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>& out) const {
   const StartNumbers xi = startNumbers(first, hashCombine(seed, randomStream("phot")), out.size());
   std::vector<vec3> directions(out.size());
   cosineHemispheres(xi.b, directions);
   std::vector<Start> starts;
   std::vector<SampleName> names;
-  std::vector<double> density;  // density over the numbers that choose the place in a cell
+  std::vector<double> pdf;  // density over the numbers that choose the place in a cell
   for (size_t i = 0; i < out.size(); ++i) {
     double x{xi.a[i].x};
     const Surface& surface = surfaces_[choice_.pick(x)];
     const size_t cell = surface.cells.pick(x);
     starts.push_back(startIn(surface, cell, {static_cast<float>(x), xi.a[i].y}));
-    density.push_back(surface.cells.weight(cell) / choice_.total());
+    pdf.push_back(surface.cells.weight(cell) / choice_.total());
     const float cosine = directions[i].z;
     directions[i] = towards(starts[i].normal, directions[i]);
     names.push_back({hashCombine(seed, randomStream("phot"), first + static_cast<uint32_t>(i)), 0});
@@ -189,7 +189,7 @@ void GlowPhotons::emit(uint32_t first, uint32_t seed, std::vector<EmittedPhoton>
   }
   const std::vector<vec3> radiance = radianceAlong(starts, directions, names);
   for (size_t i = 0; i < out.size(); ++i)
-    out[i].power = radiance[i] * static_cast<float>(double{kPi} * double{starts[i].area} / density[i]);
+    out[i].power = radiance[i] * static_cast<float>(double{kPi} * double{starts[i].area} / pdf[i]);
 }
 
 }  // namespace tomales
