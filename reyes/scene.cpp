@@ -104,14 +104,19 @@ bool Scene::cameraFromNamed(const std::string& name, mat4& out) const {
   return true;
 }
 
-float Scene::displacementBoundOf(const Attributes& a, const mat4& cameraFromObject) const {
+float Scene::displacementBoundOf(const Attributes& a, const Motion& cameraFromObject, float time) const {
   if (!a.displacement) return 0;
-  mat4 cameraFromBoundSpace = cameraFromObject;
+  if (a.displacementBoundSpace == "object") return a.displacementBound * largestScale(cameraFromObject.at(time));
+  mat4 cameraFromBoundSpace = cameraFromObject.at(time);
   if (a.displacementBoundSpace == "shader")
     cameraFromBoundSpace = cameraFromWorldAtOpen() * a.displacement->worldFromShader.at(options.shutterOpen);
-  else if (a.displacementBoundSpace != "object")
+  else
     cameraFromNamed(a.displacementBoundSpace, cameraFromBoundSpace);
-  return a.displacementBound * largestScale(cameraFromBoundSpace);
+  // Shaders displace at shutter open, and what they add grows with the object.
+  const mat4 fromOpen = cameraFromObject.at(time) * glm::inverse(cameraFromObject.at(options.shutterOpen));
+  const float growth = time == options.shutterOpen ? 1 : largestScale(fromOpen);
+  return a.displacementBound * largestScale(cameraFromBoundSpace) *
+         (std::isfinite(growth) ? std::max(1.0f, growth) : 1);
 }
 
 void Scene::derive(Object& o) const {
@@ -121,9 +126,9 @@ void Scene::derive(Object& o) const {
   o.currentFromObject = heldCamera(o.worldFromObject, options.shutterOpen, m);
   turnToEye(o, m, options.projection == ProjectionKind::Perspective);
   o.flipsNormal = (glm::determinant(mat3(m)) < 0) != o.attributes->insideOut;
-  o.displacementBound = 0;  // displacement moves with the object's scale
+  o.displacementBound = 0;
   for (const float t : o.keyTimes)
-    o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject.at(t)));
+    o.displacementBound = std::max(o.displacementBound, displacementBoundOf(*o.attributes, o.cameraFromObject, t));
 }
 
 void Scene::derive(Procedural& p) const {
@@ -131,7 +136,7 @@ void Scene::derive(Procedural& p) const {
   p.keyTimes = keyTimesOf({}, p.cameraFromObject, options);
   p.displacementBound = 0;
   for (const float t : p.keyTimes)
-    p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject.at(t)));
+    p.displacementBound = std::max(p.displacementBound, displacementBoundOf(*p.attributes, p.cameraFromObject, t));
 }
 
 ShadeGroup Scene::groupFor(const Object& o, int index) const {

@@ -122,7 +122,7 @@ struct Scene {
   int add(Object object);
   void findGroup(Object& object, int index);
   ShadeGroup groupFor(const Object& object, int index) const;
-  float displacementBoundOf(const Attributes& attributes, const mat4& cameraFromObject) const;
+  float displacementBoundOf(const Attributes& attributes, const Motion& cameraFromObject, float time) const;
 
   /// The groups by a hash of all that their objects have in common. Requests share one Attributes until something
   /// changes, so it is enough to compare the pointers.

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "reyes/dice.h"
+#include "reyes/displacement_outputs.h"
 
 namespace tomales {
 
@@ -177,7 +178,8 @@ std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
   constexpr size_t kVertex_bytes = 44, kKey_bytes = 72, kGrid_bytes = 1088;
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
   size_t vertex_bytes = kVertex_bytes + kKey_bytes * (o.keyTimes.size() - 1);
-  for (const Primvar& p : o.shape().primvars()) vertex_bytes += static_cast<size_t>(p.width) * sizeof(float);
+  const int floats = floatsOfPoint(o.shape().primvars()) + floatsOfPoint(displacementVariables(*o.attributes));
+  vertex_bytes += static_cast<size_t>(floats) * sizeof(float);
   const auto vertices =
       static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));
   const size_t bytes = kGrid_bytes + vertex_bytes * vertices;

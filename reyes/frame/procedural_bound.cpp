@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cfloat>
+
 namespace tomales {
 namespace {
 
 constexpr uint32_t kMostPatches = 64;  ///< Patches of an object that are looked at, evenly chosen.
 constexpr float kTolerance = 0.01f;    ///< Share of the bound's size by which contents may pass it.
+constexpr float kRoundings = 8;        ///< Roundings of a point on its way to the camera and back.
 
 /// Returns a box around some points of the object.
 Bound3 someOf(const Object& o, const mat4& m) {
@@ -22,7 +25,8 @@ Bound3 someOf(const Object& o, const mat4& m) {
   for (uint32_t patch = 0, step = 1 + prim.patchCount() / kMostPatches; patch < prim.patchCount(); patch += step) {
     prim.evaluate(patch, kPoints, u, v, {a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]});
     for (int i = 0; i < kPoints; ++i)
-      if (const vec3 p{a[0][i], a[1][i], a[2][i]}; isFinite(p)) out.extend(transformPoint(m, p));
+      if (const vec3 p{a[0][i], a[1][i], a[2][i]}; isFinite(p) && prim.keeps(patch, u[i], v[i]))
+        out.extend(transformPoint(m, p));
   }
   return out;
 }
@@ -34,20 +38,24 @@ void checkProceduralBound(const Procedural& p, const Expansion& inside, Log& log
   const mat4 fromCamera = glm::inverse(p.cameraFromObject.at(time));
   Bound3 seen;
   for (const Object& o : inside.objects)
-    if (o.solid < 0)  // another part of its solid may cut off what passes the bound
+    // Only buckets of the camera keep to the bound. Another part of a solid may cut off what passes it.
+    if (o.solid < 0 && o.attributes->visibility.camera)
       seen.extend(someOf(o, fromCamera * o.cameraFromObject.at(time)));
-  const Bound3 allowed = p.bound.grown(kTolerance * glm::length(p.bound.size()));
-  if (seen.empty() ||
+  // The frame grows the bound by displacement, and floats far from the camera are coarse.
+  const mat4 m = p.cameraFromObject.at(time);
+  const float coarse = kRoundings * FLT_EPSILON * glm::length(vec3(m[3]));
+  const Bound3 allowed = p.bound.grown(kTolerance * glm::length(p.bound.size()) +
+                                       (p.displacementBound + coarse) / std::max(lengthScale(m), FLT_MIN));
+  if (seen.empty() || !isFinite(seen.lo) || !isFinite(seen.hi) ||
       (glm::all(glm::greaterThanEqual(seen.lo, allowed.lo)) && glm::all(glm::lessThanEqual(seen.hi, allowed.hi))))
     return;
   Bound3 needed = p.bound;
   needed.extend(seen);
-  log.report(
-      Severity::Warning, "rib-bound", p.where,
-      fmt::format("a procedural reaches beyond its bound, and parts of it may be cut off; it needs [{:.4g} {:.4g} "
-                  "{:.4g} {:.4g} {:.4g} {:.4g}] or more",
-                  needed.lo.x, needed.hi.x, needed.lo.y, needed.hi.y, needed.lo.z, needed.hi.z),
-      p.where.text());
+  log.report(Severity::Warning, "rib-bound", p.where,
+             fmt::format("a procedural reaches beyond its bound, and parts of it may be cut off; it needs [{} {} "
+                         "{} {} {} {}] or more",
+                         needed.lo.x, needed.hi.x, needed.lo.y, needed.hi.y, needed.lo.z, needed.hi.z),
+             p.where.text());
 }
 
 }  // namespace tomales

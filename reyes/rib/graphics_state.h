@@ -70,8 +70,7 @@ struct Globals {
   /// headers of frames set both again, and no path may be mapped twice.
   std::map<std::string, std::string> unmappedPaths;
   Patterns patterns;
-  std::map<std::string, std::string> declared;  ///< What Declare says of names, for Displays that show them.
-  std::map<std::string, ParamList> quantized;   ///< Parameters of Quantize by variable, for Displays that show it.
+  std::map<std::string, ParamList> quantized;  ///< Parameters of Quantize by variable, for Displays that show it.
 };
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Instance };
@@ -105,6 +104,8 @@ class GraphicsState {
   Interner<const ShaderCall> shaders;
   Interner<Attributes> attributes;
   Motion identity;  ///< The matrix that Identity sets: the CTM of the instance while an object is replayed.
+  /// What Declare says of names, for Displays that show them. It outlives frames, as the declarations do.
+  std::map<std::string, std::string> declared;
 
   void begin(Block block, const SourceLoc& where);
   /// Restores what `begin` saved, and closes forgotten blocks within. Returns false, and changes nothing, if there is

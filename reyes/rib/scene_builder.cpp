@@ -144,7 +144,7 @@ float SceneBuilder::rasterArea(const std::vector<float>& b) const {
 }
 
 bool SceneBuilder::performBlock(const Request& r) {
-  if (r.name == "Declare") state_.globals.declared[r.args[0].strings[0]] = r.args[1].strings[0];
+  if (r.name == "Declare" && !inProcedural_) state_.declared[r.args[0].strings[0]] = r.args[1].strings[0];
   if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive")
     return true;  // the reader performs it
   if (r.name == "ErrorHandler") {

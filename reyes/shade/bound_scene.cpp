@@ -164,7 +164,9 @@ void BoundScene::shareChoices() {
   for (const ShadeGroup& group : scene.groups) choices_.try_emplace(group.attributes->lights.among(known));
   auto longest = choices_.rend();
   for (auto it = choices_.rbegin(); it != choices_.rend(); ++it) {
-    const bool shares = longest != choices_.rend() && it->first.begins(longest->first);
+    // Many lamps of a tree that are off would make those that are on noisier.
+    const bool shares =
+        longest != choices_.rend() && it->first.begins(longest->first) && 2 * it->first.size() >= longest->first.size();
     it->second = choiceAmong(it->first, shares ? longest->second : nullptr);
     if (!shares) longest = it;
   }

@@ -66,7 +66,10 @@ int32_t tell(const BoundShaderPtr& shader, std::string_view name, int32_t* type,
 
 /// Finds what the displacement shader has computed at the points. It has run at those that the camera sees alone.
 int32_t tellDisplaced(const Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
-  if (batch.context.kind != RayKind::Camera) return 0;
+  // Points in the air of a Volume have no variables.
+  if (batch.context.kind != RayKind::Camera || !batch.points ||
+      batch.points->primvarFloats() < batch.group.primvarFloats)
+    return 0;
   for (const Override& o : batch.group.displacementOutputs) {
     const TmParamDecl& decl = batch.group.displacement->shader->params[o.param];
     if (decl.name != name) continue;

@@ -80,14 +80,17 @@ class Rule {
   }
 
   /// Returns the change of a transformed point. The point is divided by its weight w = p . c + m33, where c is the last
-  /// column of the matrix. So its change is (d M - y (d . c)) / w.
+  /// column of the matrix, unless w is 0. So its change is (d M - y (d . c)) / w, or d M.
   int32_t changeOfPoint() {
     const auto weightOf = [&](float row) {
       return compute(Op::MatrixElement, {in(0), constant(row), constant(3)}, Shape::Number);
     };
     const int32_t column = compute(Op::MakeTriple, {weightOf(0), weightOf(1), weightOf(2)}, Shape::Triple);
     const int32_t turned = compute(Op::TransformVector, {in(0), d(1)}, Shape::Triple);
-    return div(sub(turned, mul(y(), dot(d(1), column))), add(dot(in(1), column), weightOf(3)));
+    const int32_t weight = add(dot(in(1), column), weightOf(3));
+    const int32_t isDivided = compute(Op::NotEqual, {weight, c_.zero}, Shape::Number);
+    const int32_t divisor = each(Op::Select, {isDivided, weight, constant(1)});
+    return each(Op::Select, {isDivided, div(sub(turned, mul(y(), dot(d(1), column))), divisor), turned});
   }
 
   /// Returns the registers of the change; empty if there is no short rule.

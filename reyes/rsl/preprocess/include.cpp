@@ -87,15 +87,17 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
   std::vector<std::string> folders = folders_;
   if (isQuoted && !fromFolder.empty()) folders.insert(folders.begin(), fromFolder);
   ReadFile out{wanted, {}, "there is no such file beside the file or in the folders for headers"};
+  bool isThere = false;
   for (const std::string& folder : folders) {
     const std::string path = wanted.starts_with('/') ? wanted : folder == "." ? wanted : folder + "/" + wanted;
     const std::string real = realPath(path);
     if (real.empty()) continue;
     if (isPermitted(real)) return readFile(path);
+    isThere = true;
     out.failure = "it is outside of the folders from which files may be included";
   }
   // Collections of shaders name such headers as they lie there: "../include/normals.h".
-  for (const std::string& header : {wanted, fs::path(wanted).filename().string()})
+  for (const std::string& header : {wanted, isThere ? std::string() : fs::path(wanted).filename().string()})
     if (const std::string_view own = standard_ ? standardHeader(header) : std::string_view(); !own.empty())
       return asFile(wanted, std::string(own));
   if (fs::path(wanted).extension() == ".h" && fs::path(wanted).filename() == wanted)
