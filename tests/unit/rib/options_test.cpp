@@ -263,6 +263,21 @@ TEST(Display, ShowsWhatDeclareDeclares) {
   EXPECT_EQ(o.channels.at("mask").type, ValueType::Float);
   EXPECT_EQ(o.channels.size(), 1u)
       << "what surfaces have by themselves needs no declaration, and pictures hold no text";
+  const Reading parameter("Declare \"rgb\" \"uniform color\" Display \"a.tif\" \"tiff\" \"rgb\"" + inWorld(""));
+  EXPECT_TRUE(parameter.scene().options.channels.empty()) << "the letters stay letters";
+  const Reading frames("FrameBegin 1 Declare \"mask\" \"varying float\"" + inWorld("") +
+                       "FrameEnd FrameBegin 2 Display \"a.tif\" \"tiff\" \"mask\"" + inWorld("") + "FrameEnd");
+  EXPECT_TRUE(frames.scenes.at(1).options.channels.contains("mask")) << "declarations outlive frames";
+}
+
+TEST(DisplacementBounds, GrowWithTheObjectInAllSpaces) {
+  for (const char* space : {"object", "world", "shader"}) {
+    const Reading r("Shutter 0 1" +
+                    inWorld(std::string("Displacement \"bumpy\" Attribute \"displacementbound\" "
+                                        "\"sphere\" [0.1] \"coordinatesystem\" [\"") +
+                            space + "\"] MotionBegin [0 1] Scale 1 1 1 Scale 3 3 3 MotionEnd " + kSphere));
+    EXPECT_NEAR(r.object(0).displacementBound, 0.3f, 1e-5f) << space;
+  }
 }
 
 TEST(Projection, WhoseFieldOfViewHasNoNumberHasThatOfTheSpecification) {

@@ -93,6 +93,9 @@ Cases derivativeCases() {
          return 4 / ((i + 2) * (i + 2)) * Vec3{2, -1, 0};
        },
        kAnalytic},
+      {"a projection from infinity, where nothing is divided",
+       "matrix m = matrix (2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0); w = Du(transform(m, P));", Vec3{8, 0, 0},
+       kAnalytic},
       {"a space", "w = Du(transform(\"world\", P));", Vec3{8, 0, 0}, {.tolerance = 1e-3f}},
       {"both sides of a choice", "x = Du(s < 3 ? s : s * s);", [](float i) { return i < 3 ? 4 : 8 * i; }, kAnalytic},
       {"through if", "float a; if (s < 3) a = s; else a = s * s; x = Du(a);", [](float i) { return i < 3 ? 4 : 8 * i; },

@@ -94,6 +94,9 @@ TEST_F(Includes, ReadNothingOutsideOfTheFolders) {
   write("headers2/x.h", "secret");
   EXPECT_NE(read("#include \"../headers2/x.h\"\n").find(refused), std::string::npos)
       << "a folder whose name begins alike";
+  write("headers2/normals.h", "secret");
+  EXPECT_NE(read("#include \"../headers2/normals.h\"\n").find(refused), std::string::npos)
+      << "the renderer's own header is another one";
 }
 
 TEST_F(Includes, LookForHeadersWhereCollectionsOfShadersKeepThem) {
