@@ -269,7 +269,7 @@ bool RecordFile::readDirectory(const RecordFileKind& kind, std::string& error) {
     return false;
   }
   std::vector<DirectoryEntry> entries(directory->size() / sizeof(DirectoryEntry));
-  std::memcpy(entries.data(), directory->data(), directory->size());
+  if (!entries.empty()) std::memcpy(entries.data(), directory->data(), directory->size());
   for (const DirectoryEntry& e : entries) offsets_[e.name] = e.offset;
   return true;
 }
