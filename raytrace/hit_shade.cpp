@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "raytrace/ray_scene.h"
 #include "reyes/dice.h"

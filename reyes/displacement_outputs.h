@@ -17,4 +17,11 @@ inline std::vector<Primvar> displacementVariables(const Attributes& a) {
   return out;
 }
 
+/// Returns how many floats they take together.
+inline int displacementFloats(const Attributes& a) {
+  int out = 0;
+  for (const Param& p : a.displacementOutputs) out += floatsPerValue(p.type);
+  return out;
+}
+
 }  // namespace tomales

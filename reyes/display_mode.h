@@ -17,4 +17,9 @@ inline std::vector<std::string> channelNames(const std::string& mode) {
   return out;
 }
 
+/// Tells whether it names the colour, opacity or depth of the picture by letters, as "rgba" does.
+inline bool isOfLetters(const std::string& mode) {
+  return !mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos;
+}
+
 }  // namespace tomales

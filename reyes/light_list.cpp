@@ -33,7 +33,7 @@ void LightList::append(Run run) {
 
 void LightList::switchOn(int light) {
   switchOff(light);
-  append({light, light + 1});
+  add(light);
 }
 
 void LightList::switchOff(int light) {
@@ -46,9 +46,12 @@ void LightList::switchOff(int light) {
 
 LightList LightList::among(const LightList& ascending) const {
   LightList out;
-  for (const Run& run : runs_)
-    for (const Run& other : ascending.runs_)
-      out.append({std::max(run.first, other.first), std::min(run.end, other.end)});
+  const auto endsBefore = [](int light, const Run& run) { return light < run.end; };
+  for (const Run& run : runs_) {
+    auto other = std::upper_bound(ascending.runs_.begin(), ascending.runs_.end(), run.first, endsBefore);
+    for (; other != ascending.runs_.end() && other->first < run.end; ++other)
+      out.append({std::max(run.first, other->first), std::min(run.end, other->end)});
+  }
   return out;
 }
 

@@ -10,10 +10,6 @@
 namespace tomales {
 namespace {
 
-bool isOfLetters(const std::string& mode) {
-  return !mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos;
-}
-
 /// A request whose parameters say how a channel is written.
 struct Asker {
   std::string name;  ///< Name for messages.

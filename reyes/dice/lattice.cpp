@@ -124,8 +124,7 @@ Grid emptyGrid(const Object& o, int object, std::span<const PatchPiece> pieces, 
   g.pieces.reserve(pieces.size());
   for (const PatchPiece& p : pieces)
     g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
-  g.allocate(nu, nv, keyCount, floatsOfPoint(prim.primvars()) + floatsOfPoint(displacementVariables(*o.attributes)),
-             pool);
+  g.allocate(nu, nv, keyCount, floatsOfPoint(prim.primvars()) + displacementFloats(*o.attributes), pool);
   g.kept = keptOfCells(prim, g);
   return g;
 }
@@ -196,8 +195,8 @@ Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, in
   PieceLattices lattices(g);
   const mat3 normals = placeVertices(o, keys, lattices, g);
   int filled = interpolatePrimvars(prim, keys.targetFromObject.at(keys.times.front()), normals, lattices, g);
-  for (const Primvar& p : displacementVariables(*o.attributes))  // the shader may fail, or assign none
-    for (int c = 0; c < p.width; ++c) std::fill_n(g.primvar(filled++), g.vertexCount(), 0.0f);
+  for (int left = displacementFloats(*o.attributes); left > 0; --left)  // the shader may fail, or assign none
+    std::fill_n(g.primvar(filled++), g.vertexCount(), 0.0f);
   lattices.forEach([&](const Grid::Piece& p, int first, const float* u, const float* v) {
     prim.surfaceParameters(p.patch, g.verticesOfPiece(), u, v, g.u() + first, g.v() + first);
   });

@@ -178,7 +178,7 @@ std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
   constexpr size_t kVertex_bytes = 44, kKey_bytes = 72, kGrid_bytes = 1088;
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
   size_t vertex_bytes = kVertex_bytes + kKey_bytes * (o.keyTimes.size() - 1);
-  const int floats = floatsOfPoint(o.shape().primvars()) + floatsOfPoint(displacementVariables(*o.attributes));
+  const int floats = floatsOfPoint(o.shape().primvars()) + displacementFloats(*o.attributes);
   vertex_bytes += static_cast<size_t>(floats) * sizeof(float);
   const auto vertices =
       static_cast<size_t>(padded(static_cast<int>(stack.pieces.size()) * (stack.nu + 1) * (stack.nv + 1)));

@@ -59,11 +59,9 @@ void declareChannels(GraphicsState& s, DisplayCall& call) {
     return name;
   };
   if (const std::string name = declare(call.mode); !name.empty()) call.mode = name;
-  for (const std::string& name : channelNames(call.mode)) {
-    const bool isOfLetters = name.find_first_not_of("rgbaz") == std::string::npos;
-    if (const auto it = s.declared.find(name); it != s.declared.end() && !isOfLetters && !surfaceVariable(name))
+  for (const std::string& name : channelNames(call.mode))
+    if (const auto it = s.declared.find(name); it != s.declared.end() && !isOfLetters(name) && !surfaceVariable(name))
       declare(it->second + ' ' + name);
-  }
 }
 
 // Adds a display. By RISpec 3.2 a name with a leading '+' adds one, and any other replaces them all.

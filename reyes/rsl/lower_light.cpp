@@ -83,12 +83,18 @@ int Lowering::lightsOf(const Stmt& s) {
 
 void Lowering::illuminate(const Stmt& s) {
   const int32_t from = value(*s.exprs[0]), L = global(Global::L);
-  copy(L, compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple));
-  if (s.exprs.size() == 1) return statement(*s.body[0]);
+  const int32_t ray = compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple);
+  const bool cone = s.exprs.size() > 1;
+  if (!cone || !shinesFromMany_) copy(L, ray);
+  if (!cone) return statement(*s.body[0]);
   const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
-  const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {L}), axis});
+  const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {ray}), axis});
   const int32_t inside = compute(Op::LessEqual, {compute(Op::Cos, {angle}, Shape::Number), cosine});
-  ifElse(inside, block([&] { statement(*s.body[0]); }), {});
+  ifElse(inside, block([&] {
+           if (shinesFromMany_) copy(L, ray);  // outside of this cone, another one's direction stays
+           statement(*s.body[0]);
+         }),
+         {});
 }
 
 void Lowering::solar(const Stmt& s) {

@@ -45,6 +45,7 @@ void Lowering::shader(const Shader& s) {
   code_.kind = s.kind;
   code_.name = s.name;
   code_.doc = s.doc;
+  shinesFromMany_ = s.kind == ShaderKind::Light && lightsOf(*s.body) > 1;
   for (const auto& p : s.parameters) parameter(*p);
   functions_.push_back({-1, code_.labels++});
   if (contains(*s.body, {StmtKind::Return})) {
@@ -56,9 +57,10 @@ void Lowering::shader(const Shader& s) {
     statement(*s.body);
   }
   if (s.kind == ShaderKind::Surface) beginColor();
-  if (s.kind == ShaderKind::Light && lightsOf(*s.body) > 1)
+  if (shinesFromMany_)
     messages_.warning(s.place,
-                      "a light shines from one place: where several illuminate() or solar() run, the last counts");
+                      "a point has light from one direction: where several illuminate() or solar() reach it, the last "
+                      "gives the direction");
 }
 
 // RISpec leaves open what Ci and Oi hold at first. Here Oi is Os. Ci is Cs in shaders that never assign it, and black

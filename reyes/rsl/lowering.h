@@ -113,7 +113,8 @@ class Lowering {
   Code& code_;
   Messages& messages_;
   Block* block_;
-  int32_t depth_ = 0;  ///< The number of control structures around.
+  bool shinesFromMany_ = false;  ///< Several illuminate() or solar() of this light may reach one point.
+  int32_t depth_ = 0;            ///< The number of control structures around.
   int instructions_ = 0;
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;

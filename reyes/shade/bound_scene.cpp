@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reyes/dialect.h"
 #include "reyes/displacement_outputs.h"
 #include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
@@ -146,9 +145,9 @@ void BoundScene::addIndirectLight() {
 void BoundScene::listLights() {
   for (const auto& light : lights) {
     if (!light) continue;
-    known.switchOn(light->index);
-    if (light->can(TM_LIGHT_INDIRECT)) indirect.switchOn(light->index);
-    if (light->maxVariation != 0) interpolated.switchOn(light->index);
+    known.add(light->index);
+    if (light->can(TM_LIGHT_INDIRECT)) indirect.add(light->index);
+    if (light->maxVariation != 0) interpolated.add(light->index);
   }
 }
 

@@ -142,7 +142,7 @@ std::unique_ptr<const LightSets> partOf(const SharedSets& shared, const LightLis
   if (out->sets.empty()) return nullptr;
   for (const int light : lights)
     if (const int set = shared.setOf[static_cast<size_t>(light)]; set < 0 || !drawn[static_cast<size_t>(set)])
-      out->alone.switchOn(light);
+      out->alone.add(light);
   return out;
 }
 

@@ -151,7 +151,7 @@ for body, warns in ((SHINE, False), (2 * SHINE, True), (f"if (k > 0) {SHINE} els
                     (f"if (k > 0) {{ {SHINE} }} solar(vector \"shader\" (0, 0, 1), 0) Cl = 1;", True)):
     t.write("many.sl", LIGHT.format(body))
     said = t.expect_run("compile of a light", ["compile", "many.sl"], 0).stderr
-    t.expect(("the last counts" in said) == warns, f"that {'may shine from several places' if warns else 'shines from one place'}: {body}")
+    t.expect(("the last gives the direction" in said) == warns, f"that {'may shine from several places' if warns else 'shines from one place'}: {body}")
 t.expect_run("compile of a shader that lacks a function", ["compile", "lacking.sl"], 3, "lacking.sl:1:26: warning", "company_noise")
 t.expect_run("compile of a file that is not there", ["compile", "nosuch.sl"], 2, "nosuch.sl")
 t.expect_run("compile of nothing", ["compile"], 1)

@@ -92,6 +92,13 @@ Cases lightCases() {
        "illuminate (point (0, 0, 0), vector (0, 0, 5), PI / 4) x = 1;",
        [](float i) { return i * std::sqrt(5.0f) < 3 ? 1.0f : 0.0f; },
        {.kind = "light"}},
+      {"of several cones, the one that holds the point gives the direction",
+       "float held = 0; illuminate (point (0, 0, 0), vector (0, 0, 1), PI / 4) held = 1;"
+       "illuminate (point (0, 0, 9), vector (0, 0, 1), PI / 4) held = 2; if (held == 1) w = L;",
+       [](float i) {
+         return i * std::sqrt(5.0f) < 3 ? Vec3{i, 2 * i, 3} : Vec3{0, 0, 0};
+       },
+       {.kind = "light"}},
       {"the inverse square",
        "illuminate (point (0, 0, 0)) c = 1 / (L . L);",
        [](float i) {
