@@ -82,7 +82,7 @@ BuiltBricks writeIrradianceBricks(const std::filesystem::path& points, const std
 /// FileError.
 bool renewIrradianceBricks(const std::filesystem::path& points, const std::filesystem::path& out,
                            const BrickSettings& settings, Stats& stats);
-/// Reads the MadeFrom of a point cloud; zeros for a file that is missing or damaged.
+/// Reads the MadeFrom of a point cloud; zeros for a file that is missing. Throws FileError.
 MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 
 /// Tells whether FOLDER/photons holds the photons of this scene and these settings.
@@ -136,7 +136,7 @@ class IrradianceAtlas {
                            bool* acrossWalls = nullptr) const;
   const BrickMap* open(const std::filesystem::path& file);
   void openCaustics(const std::filesystem::path& folder, const MapNames& names);
-  vec3 worldNormal(const vec3& N) const { return normalizeOr(transformVector(worldFromCurrent_, N), N); }
+  vec3 worldNormal(const vec3& N) const { return normalizeOr(worldNormalFromCurrent_ * N, N); }
   /// Returns the number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
   int surfaceIn(const MadeFrom& from, int group) const {
     return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
@@ -144,6 +144,7 @@ class IrradianceAtlas {
 
   mutable BrickCache cache_;
   mat4 worldFromCurrent_;
+  mat3 worldNormalFromCurrent_;
   float worldFromCurrentScale_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< Sorted by name.
   struct Photons {

@@ -20,7 +20,8 @@ struct GatherSettings {
   int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
   bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
-  std::string subset{};  ///< The sets of objects that the rays see; empty for those of the object's trace:subset.
+  std::string
+      subset{};  ///< The sets of objects that the rays see; empty for those of the object's grouping:tracesubset.
   std::optional<HemisphereQuery> asked{};  ///< The question of a shader; empty for an indirect light.
   bool operator==(const GatherSettings&) const = default;
 

@@ -16,7 +16,7 @@ void writePly(const PointFile& cloud, const std::string& path);
 
 struct PlyFigures {
   uint64_t points = 0;
-  uint64_t dropped = 0;  ///< Points without a finite position.
+  uint64_t dropped = 0;  ///< Points with a number that is not finite, or a negative radius.
 };
 
 /// Converts PLY to .ptc, in the order of the file. `radius`: for points that have none. Normals are made unit. Throws

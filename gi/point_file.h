@@ -16,7 +16,7 @@ class PointFileWriter {
 
   /// Throws FileError, like every member.
   PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels);
-  /// Adds a point; one that is not finite is left out.
+  /// Adds a point; one that isValidPoint() refuses is left out.
   void add(const vec3& P, const vec3& N, float radius, const float* values);
   /// Adds at most kChunkPoints valid points, as a chunk of their own.
   void addChunk(const PointCloud& points);

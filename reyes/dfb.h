@@ -10,7 +10,7 @@ namespace tomales {
 
 struct SourceFile {
   std::string path;  ///< The absolute path, or "-" for standard input.
-  uint64_t sum = 0;  ///< checksum() of the file's bytes.
+  uint64_t sum = 0;  ///< The result of sumOfFile().
   bool operator==(const SourceFile&) const = default;
 };
 

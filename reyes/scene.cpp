@@ -20,7 +20,7 @@ bool sameGroup(const ShadeGroup& a, const ShadeGroup& b) {
          sameLayout(a.primvars, b.primvars);
 }
 
-/// A hash of all that sameGroup() compares.
+/// A hash of what sameGroup() compares, except for the types and widths of primitive variables.
 class GroupHash {
  public:
   explicit GroupHash(const ShadeGroup& g) {
@@ -145,6 +145,7 @@ ShadeGroup Scene::groupFor(const Object& o, int index) const {
                .cameraFromObject = m,
                .primvars = {},
                .exampleObject = index,
+               .where = o.where,
                .solid = o.solid >= 0,
                .subtracted = o.subtracted};
   if (o.currentFromObject.moving()) g.currentFromOpen = o.currentFromObject * Motion::still(glm::inverse(m));
@@ -162,6 +163,8 @@ void Scene::findGroup(Object& o, int index) {
       begin, end, [&](const auto& entry) { return sameGroup(groups[static_cast<size_t>(entry.second)], group); });
   if (known != end) {
     o.group = known->second;
+    int& example = groups[static_cast<size_t>(o.group)].exampleObject;
+    if (example < 0) example = index;
     return;
   }
   o.group = static_cast<int>(groups.size());
@@ -240,6 +243,7 @@ void Scene::drop(int object) {
   rest.where = o.where;
   rest.group = o.group;
   o = std::move(rest);
+  if (int& example = groups[static_cast<size_t>(o.group)].exampleObject; example == object) example = -1;
   dropped_.push_back(object);
 }
 
@@ -264,8 +268,13 @@ void Scene::open(const std::function<bool(const Attributes&)>& wanted) {
   procedurals = std::move(kept);
 }
 
-std::string objectName(const Object& object) {
-  return object.attributes->name.empty() ? "object at " + object.where.text() : "\"" + object.attributes->name + "\"";
+namespace {
+std::string objectName(const Attributes& attributes, const SourceLoc& where) {
+  return attributes.name.empty() ? "object at " + where.text() : "\"" + attributes.name + "\"";
 }
+}  // namespace
+
+std::string objectName(const Object& object) { return objectName(*object.attributes, object.where); }
+std::string objectName(const ShadeGroup& group) { return objectName(*group.attributes, group.where); }
 
 }  // namespace tomales

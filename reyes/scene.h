@@ -49,7 +49,8 @@ struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
-  int exampleObject = -1;         ///< Some object of the group, for messages.
+  int exampleObject = -1;         ///< Some object of the group; -1 if the scene keeps none of them.
+  SourceLoc where{};              ///< Place of its first object, for messages.
   /// Transforms positions of the group at shutter open to those at a time, with the camera fixed.
   Motion currentFromOpen{};
   bool solid = false;       ///< The objects are parts of solids.

@@ -90,6 +90,14 @@ struct Aperture {
 
 /// Options or attributes that shaders may read, by "category:name".
 using UserParams = std::map<std::string, Param>;
+/// Makes a parameter that is one string.
+inline Param wordParam(std::string name, std::string value) {
+  Param out;
+  out.name = std::move(name);
+  out.type = ValueType::String;
+  out.strings.push_back(std::move(value));
+  return out;
+}
 /// Returns the option or attribute of that name; null if there is none.
 inline const Param* findParam(const UserParams& user, const std::string& name) {
   const auto it = user.find(name);
@@ -113,7 +121,7 @@ struct Options {
   std::array<float, 4> cropWindow{0, 1, 0, 1};       ///< xmin xmax ymin ymax of the frame, from the top left
   ProjectionKind projection = ProjectionKind::Orthographic;
   float fov_degrees = 90;
-  float nearClip = 1e-6f, farClip = kRiInfinity;  ///< RI_EPSILON
+  float nearClip = 1e-6f, farClip = kRiInfinity;
   float shutterOpen = 0, shutterClose = 0;
   float shutterOffset = 0;   ///< Added to the times of motion blocks as they are read.
   bool sampleMotion = true;  ///< Hider "samplemotion": the camera sees motion.

@@ -199,19 +199,17 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
     const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : settings.irradiance;
     const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
-    if (others) {
-      if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), {}});
-    } else {
+    EstimateFigures figures;  // without estimates if they are kept, or made by another part
+    if (!others) {
       if (pointsMadeFrom(points).inputs !=
           irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
         const StageTimer timer(stats, "irradiance");
-        EstimateFigures figures;
         writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen, caustic ? ShownDisk() : shown);
-        if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
       }
       if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
       returnFreeMemory();
     }
+    if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
     if (progress) progress(share);
   }

@@ -14,12 +14,10 @@ constexpr double kMost = 0.5;  // Share of estimates that may be unreliable.
 constexpr double kClumped = 1.1;
 constexpr double kMostOfPicture = 0.25;  // Share of the lit picture that may rest on few photons.
 
-/// Returns the first object whose light a map holds; null if there is none.
-const Object* objectOf(const Scene& scene, const MapNames& names, const std::string& map) {
+/// Returns the first shade group whose light a map holds; null if there is none.
+const ShadeGroup* groupOf(const Scene& scene, const MapNames& names, const std::string& map) {
   for (size_t g = 0; g < scene.groups.size(); ++g)
-    if (const int example = scene.groups[g].exampleObject;
-        example >= 0 && (names.global[g] == map || names.caustic[g] == map))
-      return &scene.objects[static_cast<size_t>(example)];
+    if (names.global[g] == map || names.caustic[g] == map) return &scene.groups[g];
   return nullptr;
 }
 
@@ -32,15 +30,15 @@ bool warnOfFewShown(const Scene& scene, const MapNames& names, const std::vector
     few += m.estimates.shownFew;
     if (!worst || m.estimates.shownFew.pixels > worst->estimates.shownFew.pixels) worst = &m;
   }
-  const Object* o = few.pixels > kMostOfPicture * shown.pixels ? objectOf(scene, names, worst->map) : nullptr;
-  if (!o) return false;
+  const ShadeGroup* g = few.pixels > kMostOfPicture * shown.pixels ? groupOf(scene, names, worst->map) : nullptr;
+  if (!g) return false;
   log.report(
-      Severity::Warning, "photon-few", o->where,
+      Severity::Warning, "photon-few", g->where,
       fmt::format(
           "{}: {:.0f} % of the lit picture, about pixel {:.0f},{:.0f}, show where irradiance estimates have very "
           "few photons in reach: indirect light is smeared there, and may be wrong by factors "
           "(--gi gather, or more photons, --photons)",
-          objectName(*o), 100 * few.pixels / shown.pixels, few.x / few.pixels, few.y / few.pixels));
+          objectName(*g), 100 * few.pixels / shown.pixels, few.x / few.pixels, few.y / few.pixels));
   return true;
 }
 
@@ -49,11 +47,11 @@ bool warnOfFewShown(const Scene& scene, const MapNames& names, const std::vector
 ShownDisk shownBy(const RayScene& rays) {
   const Scene& scene = rays.scene();
   return [&rays, camera = Camera(scene.options), current = scene.cameraFromWorldAtOpen(),
-          scale = WorldFromCurrent(scene).scale](const vec3& worldP, const vec3& worldN, float worldRadius) {
+          world = WorldFromCurrent(scene)](const vec3& worldP, const vec3& worldN, float worldRadius) {
     constexpr float kLift = 0.1f;  // of the radius: coarse polygons are not where their surface is
-    const vec3 P = transformPoint(current, worldP), N = normalizeOr(transformVector(current, worldN), vec3(0));
+    const vec3 P = transformPoint(current, worldP), N = normalizeOr(world.currentNormals * worldN, vec3(0));
     const vec3 I = camera.incident(P);
-    const float radius = worldRadius / scale, cosine = -dot(normalizeOr(I, vec3(0)), N);
+    const float radius = worldRadius / world.scale, cosine = -dot(normalizeOr(I, vec3(0)), N);
     if (!(cosine > 0) || !camera.seeable(P) || camera.clips(P)) return PictureShare{};
     const vec2 at = camera.raster(P);
     if (!(at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(camera.xResolution()) &&
@@ -87,11 +85,11 @@ void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vecto
         worstMean = mean;
       }
     }
-    const Object* o = worst ? objectOf(scene, names, worst->map) : nullptr;
-    if (o)
+    const ShadeGroup* g = worst ? groupOf(scene, names, worst->map) : nullptr;
+    if (g)
       log.report(
-          Severity::Warning, code, o->where,
-          fmt::format("{}: irradiance estimates of photon map \"{}\" {}{} (more photons, --photons)", objectName(*o),
+          Severity::Warning, code, g->where,
+          fmt::format("{}: irradiance estimates of photon map \"{}\" {}{} (more photons, --photons)", objectName(*g),
                       worst->map, why, count > 1 ? fmt::format("; likewise {} other maps", count - 1) : ""));
   };
   if (!warnOfFewShown(scene, names, maps, log))

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gi/atlas.h"
+#include "gi/atlas/world_from_current.h"
 #include "gi/point_file.h"
 
 namespace tomales {
@@ -32,8 +33,9 @@ bool isMadeByHand(const fs::path& folder) {
 IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes,
                                  Log& log)
     : cache_(cacheBytes),
-      worldFromCurrent_(glm::inverse(scene.cameraFromWorldAtOpen())),
-      worldFromCurrentScale_(lengthScale(worldFromCurrent_)),
+      worldFromCurrent_(WorldFromCurrent(scene).points),
+      worldNormalFromCurrent_(WorldFromCurrent(scene).normals),
+      worldFromCurrentScale_(WorldFromCurrent(scene).scale),
       log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   openCaustics(folder / "photons", names);
@@ -50,6 +52,7 @@ void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names
     const fs::path path = atlasFile(folder, name, ".ptc");
     if (!name.empty() && fs::exists(path)) try {
         const PointFile file(path.string());
+        requirePhotons(file);
         caustics_.try_emplace(name, Photons{file.madeFrom(), CausticPhotons(file.readAll(), kCausticIrradiance)});
       } catch (const FileError& e) {
         log_.report(Severity::Missing, "atlas-damaged", {},

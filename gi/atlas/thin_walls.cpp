@@ -61,7 +61,7 @@ class WallTest {
 
   /// Returns the object through which light comes to the place; -1: none.
   int leakAt(const Place& place) const {
-    const vec3 P = transformPoint(current_, place.P), N = normalizeOr(transformVector(current_, place.N), vec3(0));
+    const vec3 P = transformPoint(current_, place.P), N = normalizeOr(world_.currentNormals * place.N, vec3(0));
     const float reach = kReach * place.radius / world_.scale;
     if (N == vec3(0) || !(reach > 0)) return -1;
     vec3 tangent, bitangent;
@@ -106,7 +106,7 @@ class WallTest {
 SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
   return [&rays, world = WorldFromCurrent(rays.scene()), current = rays.scene().cameraFromWorldAtOpen()](
              const vec3& worldP, const vec3& worldN, float worldReach) {
-    const vec3 P = transformPoint(current, worldP), N = normalizeOr(transformVector(current, worldN), vec3(0, 0, 1));
+    const vec3 P = transformPoint(current, worldP), N = normalizeOr(world.currentNormals * worldN, vec3(0, 0, 1));
     const float reach = worldReach / world.scale, lift = kLift * reach;
     const auto hitOf = [&](const vec3& from, const vec3& direction, float tMax) {
       Ray ray{from, direction};

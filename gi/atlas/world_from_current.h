@@ -7,10 +7,12 @@ namespace tomales {
 struct WorldFromCurrent {
   mat4 points;
   mat3 normals;
-  float scale;  ///< Length in world space of one unit of current space.
+  mat3 currentNormals;  ///< The way back: normals of current space from those of world space.
+  float scale;          ///< Length in world space of one unit of current space.
   explicit WorldFromCurrent(const Scene& scene)
       : points(glm::inverse(scene.cameraFromWorldAtOpen())),
         normals(glm::transpose(mat3(scene.cameraFromWorldAtOpen()))),
+        currentNormals(glm::transpose(mat3(points))),
         scale(lengthScale(points)) {}
 };
 

@@ -16,7 +16,8 @@ namespace tomales {
 
 constexpr int kBrickWidth = 8;  ///< Voxels along an edge.
 constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
-constexpr int kMostLevels = 24;  ///< Voxel coordinates of a map of so many levels stay exact in int.
+/// Voxel coordinates of a map of so many levels, and those beside them, are exact in float.
+constexpr int kMostLevels = 22;
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
 constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (Christensen and Batali 2004, sections 3.2 and 3.3)

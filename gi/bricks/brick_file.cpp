@@ -8,13 +8,24 @@ namespace {
 constexpr char kBrickKind[9] = "TMBRICKS";
 constexpr uint32_t kBrickVersion = 4;
 
+/// Tells whether the nodes are one tree, whose last node is the root, that has the number of levels that it says.
+bool isTree(const BrickTree& tree) {
+  std::vector<int> level(tree.nodes.size(), -1);
+  if (!level.empty()) level.back() = 0;
+  for (size_t i = tree.nodes.size(); i-- > 0;) {
+    if (level[i] < 0 || level[i] > tree.deepest) return false;
+    for (const int32_t c : tree.nodes[i].child) {
+      if (c == -1) continue;
+      if (c < 0 || static_cast<size_t>(c) >= i || level[static_cast<size_t>(c)] >= 0) return false;
+      level[static_cast<size_t>(c)] = level[i] + 1;
+    }
+  }
+  return true;
+}
+
 bool sound(const BrickTree& tree) {
-  const auto count = static_cast<int32_t>(tree.nodes.size());
-  for (int32_t i = 0; i < count; ++i)
-    for (const int32_t c : tree.nodes[static_cast<size_t>(i)].child)
-      if (c < -1 || c >= i) return false;
-  return isFinite(tree.cube.lo) && tree.cube.size > 0 && std::isfinite(tree.cube.size) && tree.deepest >= 0 &&
-         tree.deepest < kMostLevels;
+  return isTree(tree) && isFinite(tree.cube.lo) && tree.cube.size > 0 && std::isfinite(tree.cube.size) &&
+         tree.deepest >= 0 && tree.deepest < kMostLevels;
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ class Builder {
     return out_.tree.root();
   }
 
-  /// Is no point of the cube smaller than half the diagonal of its voxels (Christensen and Batali 2004, section 3.2)?
+  /// Tells whether no point of the cube is smaller than half the diagonal of its voxels (Christensen and Batali 2004,
+  /// section 3.2), or nothing can be divided.
   bool fineEnough(int level, const vec3& lo, const Members& members) const {
     if (level >= settings_.maxDepth || members.size() <= 1) return true;
     const float half = 0.5f * std::sqrt(3.0f) * out_.tree.cube.voxelSize(level) / settings_.coarseness;

@@ -197,7 +197,7 @@ struct IrradianceCache::Impl {
       out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
       if (!light.empty()) out.E = vec3(glm::greaterThan(out.E, vec3(0.0f))) * corrected(otherE, other, light);
     }
-    out.inconsistent = disagreements.limit(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = worst != Disagreement::None && disagreements.limit(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }

@@ -161,7 +161,7 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
 
 bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVec3 E, std::string& problem) {
   TmPhotonOptions lookup = given;
-  lookup.estimator = std::max(1, lookup.estimator);
+  lookup.estimator = std::max(2, lookup.estimator);  // of one, all its power is in one point
   lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
   const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;

@@ -71,10 +71,11 @@ class Splatter {
   /// Draws the ellipse with two half axes around `center`.
   void disk(const vec3& center, const vec2& a, const vec2& b, const vec3& color) {
     const vec2 reach = glm::min(glm::sqrt(a * a + b * b) + 0.5f, vec2(kMostRadius_px));
-    const int x0 = std::max(0, static_cast<int>(center.x - reach.x)),
-              x1 = std::min(image.width - 1, static_cast<int>(center.x + reach.x));
-    const int y0 = std::max(0, static_cast<int>(center.y - reach.y)),
-              y1 = std::min(image.height - 1, static_cast<int>(center.y + reach.y));
+    const vec2 end(image.width, image.height);
+    const vec2 lo = glm::clamp(vec2(center) - reach, vec2(0), end),
+               hi = glm::clamp(vec2(center) + reach, vec2(-1), end);
+    const int x0 = static_cast<int>(lo.x), x1 = std::min(image.width - 1, static_cast<int>(hi.x));
+    const int y0 = static_cast<int>(lo.y), y1 = std::min(image.height - 1, static_cast<int>(hi.y));
     const float det = a.x * b.y - a.y * b.x;
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {

@@ -91,10 +91,14 @@ class GatherPass {
 
   void prepareBounces(const std::vector<Site>& sites) {
     int bounces = 1;
+    const IndirectQuery* query = nullptr;  // of the first group that asks
     for (size_t g = 0; g < caches_.ofGroups().size(); ++g)
       for (const size_t c : caches_.ofGroups()[g])
-        if (isIndirect(c))
-          bounces = std::max(bounces, bouncesFor(state_, *state_.shading.indirectQuery(static_cast<int>(g))));
+        if (isIndirect(c)) {
+          const IndirectQuery* own = state_.shading.indirectQuery(static_cast<int>(g));
+          if (!query) query = own;
+          bounces = std::max(bounces, bouncesFor(state_, *own));
+        }
     std::vector<GatherPoint> points;
     for (const Site& s : sites)
       if (isIndirect(s.cache)) points.push_back(s.point);
@@ -104,6 +108,7 @@ class GatherPass {
     size_t first = 0;
     while (!isIndirect(first)) ++first;
     GatherSettings gather = state_.caches[first].key.gather;
+    gather.subset = query->subset;  // not that of the first group's attributes: each record has its own object's
     for (const PreparedCache& c : state_.caches) {
       if (c.key.gather.asked) continue;
       gather.samples = std::max(gather.samples, c.key.gather.samples);

@@ -161,8 +161,9 @@ vec2 bendsOf(const IrradianceCurvature& h) {
 float hessianRadius(const IrradianceCurvature& h, float luminanceOfE, float pixelSize, float tolerance) {
   const vec2 bends = bendsOf(h);
   const float bend = bends.x + bends.y;
+  const float light = std::max(luminanceOfE, 0.0f);  // an estimate may be negative
   // |x^T H x| / 2 over a disk of radius R is at most (|l1| + |l2|) pi R^4 / 8.
-  return bend > 0 ? std::pow(8 * tolerance * luminanceOfE * pixelSize * pixelSize / (kPi * bend), 0.25f) : kInfinity;
+  return bend > 0 ? std::pow(8 * tolerance * light * pixelSize * pixelSize / (kPi * bend), 0.25f) : kInfinity;
 }
 
 float variationRadius(const IrradianceCurvature& h, float variation) {

@@ -204,8 +204,7 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   out.channels = irradianceChannels(photons.channels);
   if (photons.count() == 0) return out;
   const bool inMedia = offsetOf(photons.channels, kPathPower, 3) >= 0;
-  const int power = std::max({offsetOf(photons.channels, kPathPower), offsetOf(photons.channels, kPower),
-                              offsetOf(photons.channels, kIndirectPower)});
+  const int power = powerOffset(photons.channels);
   CHECK_GE(power, 0);
   const PhotonTree tree(std::move(photons));
   const auto every = static_cast<size_t>(std::max(1, settings.every));

@@ -10,7 +10,7 @@
 namespace tomales {
 
 struct PhotonIrradianceSettings {
-  int nearest = 50;  ///< The paper's number of photons in an estimate.
+  int nearest = 50;  ///< The paper's number of photons in an estimate; at least 2.
   /// One estimate is made for so many neighbouring photons (Christensen 1999, "Faster photon map global illumination").
   int every = 4;
   /// Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
@@ -23,6 +23,11 @@ inline constexpr const char* kPathPower = "pathpower";
 /// Channels of photons on surfaces, in W. kIndirectPower leaves out photons that came straight from lights, and gives
 /// "indirect" (W/m2).
 inline constexpr const char *kPower = "power", *kIndirectPower = "indirectpower";
+/// Returns the place of the photons' power, three floats; -1 if they have none and are no photons.
+inline int powerOffset(const std::vector<CloudChannel>& channels) {
+  return std::max(
+      {offsetOf(channels, kPathPower, 3), offsetOf(channels, kPower, 3), offsetOf(channels, kIndirectPower, 3)});
+}
 inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Sums over a part of the picture.

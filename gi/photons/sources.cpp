@@ -80,7 +80,9 @@ void PhotonSources::trace(const Sent& from, uint32_t seed, size_t first, size_t 
     for (size_t task = begin; task < last; ++task) {
       const size_t at = first + task * kPhotonsPerTask;
       std::vector<StoredPhoton> photons;
-      tracer_.trace(*from.source, seed, static_cast<uint32_t>(at), std::min(kPhotonsPerTask, end - at), share, photons);
+      const auto turn = static_cast<uint32_t>(uint64_t{at} >> 32);  // photons have numbers of 32 bits
+      const uint32_t own = turn == 0 ? seed : hashCombine(seed, turn);
+      tracer_.trace(*from.source, own, static_cast<uint32_t>(at), std::min(kPhotonsPerTask, end - at), share, photons);
       taken(task, std::move(photons));
     }
   });

@@ -31,6 +31,7 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
   Hit hit;
   hit.t = 1;
   hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject;
+  if (hit.object < 0) return std::nullopt;  // no ray meets the group: its objects were dropped
   hit.u = hit.v = 0.5f;
   hit.normal = hit.geometricNormal = {0, 0, -1};
   return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();

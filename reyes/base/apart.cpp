@@ -16,6 +16,8 @@
 namespace tomales {
 namespace {
 
+constexpr char kWhole = '\n';  ///< Follows the text: a process that ends in some other way does not write it.
+
 void writeAll(int file, const std::string& text) {
   for (size_t at = 0; at < text.size();) {
     const ssize_t count = write(file, text.data() + at, text.size() - at);
@@ -31,7 +33,7 @@ void writeAll(int file, const std::string& text) {
   setpgid(0, 0);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::signal(signal, SIG_DFL);
   if (const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC); nothing >= 0) dup2(nothing, STDOUT_FILENO);
-  writeAll(result, make());
+  writeAll(result, make() + kWhole);
   _exit(0);
 }
 
@@ -77,7 +79,10 @@ std::optional<std::string> runInFork(const std::function<std::string()>& make, i
   if (child < 0) return std::nullopt;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && ended) return out;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && ended && out.ends_with(kWhole)) {
+    out.pop_back();
+    return out;
+  }
   if (!ended)
     fate = "does not end within " + std::to_string(mostSeconds) + " s";
   else if (WIFSIGNALED(status))

@@ -19,8 +19,8 @@ struct ChildProgram {
 };
 
 /// Starts a program as leader of a process group of its own, with the usual reactions to signals. It gets SIGKILL when
-/// this process ends in any way; programs that it has started itself then only lose their pipes. Returns -1 if it was
-/// not started; `problem` is the errno then.
+/// the thread that called this ends, and so when this process ends in any way; programs that it has started itself then
+/// only lose their pipes. Returns -1 if it was not started; `problem` is the errno then.
 pid_t startChild(const ChildProgram& program, int& problem);
 
 /// Kills a child and all of its process group if this process ends abruptly. Destroy it before the child is waited for:

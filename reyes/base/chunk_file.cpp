@@ -139,7 +139,8 @@ struct ChunkReader::Impl {
     while (size > 0) {
       const ssize_t got = ::pread(file, out, size, static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
-      if (got <= 0) fail("is truncated");
+      if (got < 0) throw FileError(fmt::format("\"{}\" cannot be read: {}", path, std::strerror(errno)));
+      if (got == 0) fail("is truncated");
       out += got;
       offset += static_cast<uint64_t>(got);
       size -= static_cast<size_t>(got);
@@ -189,7 +190,8 @@ ChunkReader::ChunkReader(const std::string& path, const char (&kind)[9], uint32_
   if (std::memcmp(preamble.kind, kind, sizeof preamble.kind) != 0) impl_->fail("is a file of another kind");
   if (preamble.byteOrder != kByteOrder) impl_->fail("has another byte order");
   if (preamble.version != version)
-    impl_->fail(fmt::format("has version {}; this program reads version {}", preamble.version, version));
+    throw FileError(
+        fmt::format("\"{}\" has version {}; this program reads version {}", path, preamble.version, version));
   impl_->readDirectory();
 }
 

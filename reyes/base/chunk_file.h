@@ -28,15 +28,16 @@ struct FileError : std::runtime_error {
 struct WriteError : FileError {
   using FileError::FileError;
 };
-/// A file exists and makes no sense: it is cut off, rotten, or of another kind or version.
+/// A file exists and makes no sense: it is cut off, rotten, or of another kind. One of another version makes sense to
+/// another program.
 struct DamageError : FileError {
   DamageError(std::string file, const std::string& problem) : FileError(problem), path(std::move(file)) {}
   std::string path;
 };
 
 /// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
-/// removed, and `make` runs once more, to make the file that is missing then. If that is damaged too, its DamageError
-/// is thrown: it was made so.
+/// removed, and `make` runs again, to make the file that is missing then. If a file is damaged for the second time, its
+/// DamageError is thrown: it was made so.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 using Bytes = std::vector<std::byte>;

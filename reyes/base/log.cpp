@@ -69,7 +69,8 @@ void Log::printRepeated() const {
     std::string places;
     for (const SourceLoc& p : e.places) places += (places.empty() ? "" : ", ") + p.text();
     std::fprintf(stderr, "tomales: %d times: %s [%s]: %s%s\n", e.count, beginning(e.message).c_str(), e.code.c_str(),
-                 places.c_str(), static_cast<size_t>(e.count) > e.places.size() ? ", ..." : "");
+                 places.c_str(),
+                 static_cast<size_t>(e.count) > e.places.size() && e.places.size() == kMostPlaces ? ", ..." : "");
   }
   if (repeated.size() > kMostRepeated)
     std::fprintf(stderr, "tomales: %zu other messages came from several places as well; the statistics have them\n",

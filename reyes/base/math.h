@@ -24,7 +24,7 @@ using glm::vec4;
 
 constexpr float kPi = 3.14159265358979323846f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kRiInfinity = 1e30f;  ///< RI_INFINITY: what scenes and files write for no limit.
+constexpr float kRiInfinity = 1e30f;  ///< Scenes and files write this, or more (RI_INFINITY is 1e38), for no limit.
 
 inline vec3 transformPoint(const mat4& m, const vec3& p) {
   const vec4 h = m * vec4(p, 1.0f);

@@ -9,18 +9,23 @@ namespace {
 
 /// Opens the module beside the program, as built, or in lib, as installed; else where the loader finds it, by the run
 /// path of the program (CMakeLists.txt). A sanitizer's loader uses its own run path.
-void* openModule(const char* file) {
-  for (const auto& path : besideProgram(file))
+void* openModule(const char* file, std::string& error) {
+  for (const auto& path : besideProgram(file)) {
     if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
-  return dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+    if (error.empty()) error = dlerror();
+  }
+  void* const handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+  if (!handle && error.empty()) error = dlerror();
+  return handle;
 }
 
 }  // namespace
 
 void* moduleFunction(const char* file, const char* function, std::string& error) {
-  void* handle = openModule(file);
-  void* found = handle ? dlsym(handle, function) : nullptr;
-  if (!found) error = dlerror();
+  std::string problem;
+  void* const handle = openModule(file, problem);
+  void* const found = handle ? dlsym(handle, function) : nullptr;
+  if (!found) error = handle ? dlerror() : problem;
   return found;
 }
 

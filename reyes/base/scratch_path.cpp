@@ -78,7 +78,12 @@ bool ScratchPath::create(Kind kind) {
   if (kind == Kind::File)
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   else if (::mkdir(path_.c_str(), 0700) == 0)
-    descriptor_ = openToLock(path_);
+    if ((descriptor_ = openToLock(path_)) < 0) {
+      if (errno == ENOENT) return false;
+      const int problem = errno;
+      ::rmdir(path_.c_str());
+      errno = problem;
+    }
   if (descriptor_ < 0 && errno != EEXIST)
     throw fs::filesystem_error("cannot be made", path_, {errno, std::generic_category()});
   if (descriptor_ < 0) return false;

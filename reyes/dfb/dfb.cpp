@@ -24,7 +24,7 @@ Scene withoutGeometry(const Scene& scene) {
   out.groups = scene.groups;
   for (ShadeGroup& group : out.groups) {
     Object empty;
-    if (group.exampleObject >= 0) empty.where = scene.objects[static_cast<size_t>(group.exampleObject)].where;
+    empty.where = group.where;
     group.exampleObject = static_cast<int>(out.objects.size());
     out.objects.push_back(std::move(empty));
   }

@@ -30,8 +30,8 @@ void fields(A& a, Primvar& x) {
 
 template <class A>
 void fields(A& a, ShadeGroup& x) {
-  auto& [attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps] = x;
-  each(a, attributes, cameraFromObject, primvars, exampleObject, currentFromOpen, solid, subtracted, steps);
+  auto& [attributes, cameraFromObject, primvars, exampleObject, where, currentFromOpen, solid, subtracted, steps] = x;
+  each(a, attributes, cameraFromObject, primvars, exampleObject, where, currentFromOpen, solid, subtracted, steps);
 }
 
 /// Packs the fields that withoutGeometry() keeps. The private members serve geometry alone, so no structured binding

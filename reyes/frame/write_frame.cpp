@@ -18,8 +18,7 @@ MatteNames matteNames(const Scene& scene) {
     const Param* given = findParam(a.user, "identifier:shadinggroup");
     const std::string surface = a.surface ? a.surface->name : "defaultsurface";
     out.materials.push_back(given && !given->strings.empty() ? given->strings[0] : surface);
-    const bool named = !a.name.empty() || group.exampleObject < 0;
-    out.objects.push_back(named ? a.name : objectName(scene.objects[static_cast<size_t>(group.exampleObject)]));
+    out.objects.push_back(a.name.empty() ? objectName(group) : a.name);
   }
   return out;
 }

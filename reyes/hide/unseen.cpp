@@ -6,11 +6,12 @@
 namespace tomales {
 namespace {
 
-bool isKept(const RasterGrid& raster, int cell, const CellSteps& at) {
+bool isKept(const RasterGrid& raster, int cell) {
   const Grid& g = *raster.grid;
   const Kept kept = g.kept.empty() ? Kept::All : g.kept[static_cast<size_t>(cell)];
   if (kept != Kept::Part || !raster.trim) return kept != Kept::None;
-  return raster.trim->keeps(g.pieces[0].patch, at.mean(g.u()), at.mean(g.v()));
+  const vec2 middle = g.onPatch(cell, vec2(0.5f));
+  return raster.trim->keeps(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, middle.x, middle.y);
 }
 
 /// Twice the signed area of the cell in raster space.
@@ -31,7 +32,7 @@ void addUnseen(const GridTable::Entry& entry, bool cullBackfacing, const PixelRe
     const float x = at.mean(r.x.data()), y = at.mean(r.y.data());
     const bool inside = x >= static_cast<float>(rect.x0) && x < static_cast<float>(rect.x1) &&
                         y >= static_cast<float>(rect.y0) && y < static_cast<float>(rect.y1);
-    if (!inside || !isKept(r, cell, at)) continue;
+    if (!inside || !isKept(r, cell)) continue;
     if (cullBackfacing && r.facing * areaOf(r, at) < 0) continue;
     cells.push_back(entry.firstCell + static_cast<uint32_t>(cell));
   }

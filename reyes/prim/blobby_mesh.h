@@ -35,7 +35,8 @@ BlobMesh contour(const BlobField& field, const Box& box);
 /// Returns the same quadrilaterals around `moved`, whose leaves are those of `field` moved.
 BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved);
 
-/// Returns the t nearest to 0 in [-reach, reach] where p + t * outward meets the surface; empty if there is none.
+/// Returns the t where p + t * outward meets the surface, at most `reach` away from p on the side on which the field
+/// says that the surface lies. It looks in four steps, and misses what a step crosses twice; empty if it finds none.
 std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const dvec3& outward, double reach);
 
 }  // namespace tomales

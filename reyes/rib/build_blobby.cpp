@@ -36,6 +36,9 @@ RibArg integers(std::vector<int> list) { return {.kind = RibArg::Kind::Integers,
 
 }  // namespace
 
+// Only the leaf that repels (1003) takes one of the strings.
+bool hasGround(const Request& r) { return r.name == "Blobby" && r.args.size() > 3 && !r.args[3].strings.empty(); }
+
 PrimPtr blobby(const Request& r, const Prim* first, const GroundReader& grounds, Problems& problems) {
   const int leaves = r.args[0].integer();
   const std::vector<int>& code = r.args[1].integers;

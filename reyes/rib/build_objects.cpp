@@ -129,7 +129,7 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
 }
 
 Master::Shapes SceneBuilder::shapesOf(const Keys& keys, const std::vector<float>& times) {
-  if (!master_) return buildShapes(keys, times);
+  if (!master_ || hasGround(*keys.front())) return buildShapes(keys, times);
   const Scope& scope = state_.scope;
   const std::lock_guard lock(master_->mutex);
   const auto [it, fresh] = master_->shapes.try_emplace(masterRequest_);

@@ -80,7 +80,8 @@ void projection(GraphicsState& s, const Request& r) {
   else if (kind == "null")
     o.projection = ProjectionKind::Null;
   else
-    rejectOption(s, r, "unknown projection \"" + kind + "\"");
+    return rejectOption(s, r, "unknown projection \"" + kind + "\"");
+  o.fov_degrees = Options().fov_degrees;
   const bool camera = kind == "PxrCamera";
   if (camera) pxrLens(o, r.params);
   for (const Param& p : r.params) {
@@ -200,6 +201,8 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
     o.maxRayDepth = static_cast<int>(clamped(s, r, p.number(10), 0, kMostBounces));
   } else if (key == "shutter:offset") {
     o.shutterOffset = p.number(0);
+  } else if (key == "render:prmanspecular") {  // the word of BMRT; that of Tomales wins, wherever it stands
+    o.user.try_emplace("shade:specular", wordParam("specular", p.number(0) != 0 ? "prman" : "rispec"));
   } else if (key == "limits:gridsize" && p.ints.size() == 1) {
     o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
   } else if (key == "limits:othreshold" && p.floats.size() == 3) {
@@ -217,9 +220,9 @@ bool knownOption(GraphicsState& s, const Request& r, const std::string& key, con
       s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
   } else {
     return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
-           key == "shade:arealight" || key == "render:prmanspecular" || key == "texture:width" ||
-           key == "texture:filter" || key == "limits:texturememory" || key == "limits:geocachememory" ||
-           key == "ribparse:varsubst" || key == "trace:lightcut" || key == "trace:openings";
+           key == "shade:arealight" || key == "texture:width" || key == "texture:filter" ||
+           key == "limits:texturememory" || key == "limits:geocachememory" || key == "ribparse:varsubst" ||
+           key == "trace:lightcut" || key == "trace:openings";
   }
   return true;
 }

@@ -9,7 +9,13 @@ namespace {
 
 using Restore = void (*)(Scope& to, const Scope& from);
 
-void restoreAll(Scope& to, const Scope& from) { to = from; }
+// A solid is a block of requests, not an attribute: it stays the one around.
+void restoreAll(Scope& to, const Scope& from) {
+  const int solid = to.solid, solidBlock = to.solidBlock;
+  to = from;
+  to.solid = solid;
+  to.solidBlock = solidBlock;
+}
 
 void restoreTransform(Scope& to, const Scope& from) {
   to.ctm = from.ctm;
@@ -26,6 +32,7 @@ void restoreShading(Scope& to, const Scope& from) {
   a.areaLight = b.areaLight;
   a.interior = b.interior;
   a.exterior = b.exterior;
+  a.atmosphere = b.atmosphere;
   a.shadingRate = b.shadingRate;
   a.interpolation = b.interpolation;
   a.indirect = b.indirect;

@@ -1,4 +1,4 @@
-// Private to build_geometry.cpp: builders of single requests that it names.
+// Private to reyes/rib: the builders of shapes that are too long for build_geometry.cpp.
 #pragma once
 #include "reyes/rib/graphics_state.h"
 
@@ -11,6 +11,8 @@ PrimPtr points(const Request& request, const Scope& scope, Problems& problems);
 PrimPtr curves(const Request& request, const Scope& scope, Problems& problems);
 /// `first` is the shape at the first key of motion, unless this is that shape.
 PrimPtr blobby(const Request& request, const Prim* first, const GroundReader& grounds, Problems& problems);
+/// Tells whether the request is a Blobby with a ground, whose place in the leaves' space differs for each instance.
+bool hasGround(const Request& request);
 /// Turns Points of type "blobby" into a Blobby; returns nothing for others. Throws PrimError.
 std::optional<Request> blobbyOfPoints(const Request& request);
 /// Adds keys, with their times, between those of a Blobby, or of Points of that type, whose leaves move

@@ -73,16 +73,16 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
     camera = Motion();
   }
   const Motion worldFromCamera = inverse(camera);
-  const auto moved = [&](std::shared_ptr<const ShaderCall>& call) {
-    if (!call) return;
-    ShaderCall copy = *call;
-    copy.worldFromShader = worldFromCamera * copy.worldFromShader;
-    call = std::make_shared<const ShaderCall>(std::move(copy));
-  };
+  const auto move = [&](ShaderCall& call) { call.worldFromShader = worldFromCamera * call.worldFromShader; };
   const auto scopeMoved = [&](Scope& s) {
     Attributes& a = s.edit();
-    moved(a.surface);
-    moved(a.displacement);
+    for (std::shared_ptr<const ShaderCall>* call :
+         {&a.surface, &a.displacement, &a.atmosphere, &a.interior, &a.exterior}) {
+      if (!*call) continue;
+      ShaderCall copy = **call;
+      move(copy);
+      *call = std::make_shared<const ShaderCall>(std::move(copy));
+    }
     for (auto& [name, system] : s.coordinateSystems) system = worldFromCamera * system;
   };
   scopeMoved(scope);
@@ -93,8 +93,9 @@ void GraphicsState::enterWorld(const SourceLoc& where) {
     }
   for (auto& light : globals.lights) {
     light = std::make_shared<LightCall>(*light);
-    light->shader.worldFromShader = worldFromCamera * light->shader.worldFromShader;
+    move(light->shader);
   }
+  if (globals.options.imager) move(*globals.options.imager);
   for (auto& [name, system] : globals.coordinateSystems) system = worldFromCamera * system;
   scope.ctm = Motion();
   identity = Motion();

@@ -48,7 +48,8 @@ struct Master {
     std::vector<float> times;
     Basis uBasis, vBasis;
     bool roundCurves;
-    /// The shape was built with this, roundCurves and the bases; all else follows from the request.
+    /// The shape was built with this, roundCurves and the bases. All else follows from the request: one that depends on
+    /// its place (hasGround) is built for each instance.
     std::shared_ptr<const TrimLoops> trim;
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.

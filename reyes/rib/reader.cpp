@@ -14,9 +14,9 @@ SourceLoc wholeFile(const std::string& name) { return {std::make_shared<const st
 
 /// Tells whether the request changes more than the state that AttributeBegin saves.
 bool changesProceduralContext(std::string_view name) {
-  static constexpr std::string_view kNames[] = {"Declare",       "ObjectEnd",       "Option",     "CoordinateSystem",
-                                                "LightSource",   "AreaLightSource", "Light",      "Resource",
-                                                "ResourceBegin", "ResourceEnd",     "WorldBegin", "WorldEnd"};
+  static constexpr std::string_view kNames[] = {
+      "Declare", "ColorSamples", "ObjectEnd", "Option",        "CoordinateSystem", "LightSource", "AreaLightSource",
+      "Light",   "Pattern",      "Resource",  "ResourceBegin", "ResourceEnd",      "WorldBegin",  "WorldEnd"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 

@@ -68,8 +68,6 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"Option shutter:clampmotion", "dPdtime is that of the open shutter"},
       {"Option shading:checknans", "what is no number is always reported"},
       {"Option hair:minwidth", "thin curves keep their width"},
-      {"Attribute cull:hidden", "what nothing sees is never shaded, nor baked"},
-      {"Attribute cull:backfacing", "Sides 1 leaves back faces out"},
       {"Attribute dice:hair", kHair},
       {"Attribute dice:strategy", "the rate is measured where surfaces are in the picture"},
       {"Attribute dice:referencecamera", kOneCamera},

@@ -12,7 +12,8 @@
 
 namespace tomales::compiler {
 
-/// The way in which a call becomes code. Instruction is `op` on the arguments in order; calls.cpp does the others.
+/// The way in which a call becomes code. Instruction is `op` on the arguments in order; lower_calls.cpp does the
+/// others.
 enum class Emit : uint8_t {
   Instruction,
   Fold,          ///< `op` applied repeatedly: min(a, b, c).

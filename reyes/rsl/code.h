@@ -24,6 +24,9 @@ enum class Origin : uint8_t {
   Parameter,  ///< `index` is that in Code::parameters; the register holds the parameter's value at first.
 };
 
+/// Limits what a text may be at run time, in bytes.
+inline constexpr size_t kLongestText = 1 << 20;
+
 struct Register {
   Shape shape = Shape::Number;
   Origin origin = Origin::Temporary;
@@ -36,7 +39,7 @@ struct Register {
   int32_t depth = 0;  ///< The number of control structures around its declaration.
   Detail declared = Detail::Unstated;
   Place place{};  ///< Place of its declaration.
-  /// Place in the machine, in floats for each point (varying) or value (uniform): passes/allocate.h.
+  /// Place in the machine, in floats for each point (varying) or value (uniform): passes/passes.h.
   int32_t slot = -1;
 };
 
@@ -68,7 +71,8 @@ struct Parameter {
   bool output = false;        ///< True if the host only takes its value, a number or triple, and gives none.
   std::vector<float> floats;  ///< The default in shader space, if it is constant.
   std::vector<std::string> texts;
-  /// True if the shader computes the default when it is given no value: `floats` then is kNotGiven.
+  /// True if the shader computes the default when it is given no value: `floats` and `texts` then
+  /// are the marks of reyes/computed_default.h.
   bool computed = false;
   Place place{};
 };
@@ -83,7 +87,7 @@ struct Code {
   int32_t labels = 0;
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
-  uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/capabilities.h).
+  uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/passes.h).
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };
 

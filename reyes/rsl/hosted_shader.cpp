@@ -51,18 +51,20 @@ std::vector<bool> shadowMaps(const Code& code) {
 
 /// Refuses code whose registers need too much memory for a batch of points in each thread.
 void refuseHuge(const Code& code, Messages& messages) {
-  constexpr int32_t kMostFloats = 1 << 17;
-  constexpr double kBatch = 256, kMegabyte = 1 << 20;
-  if (code.varyingFloats <= kMostFloats) return;
+  constexpr double kBatch = 256, kMegabyte = 1 << 20, kMost_bytes = 128 * kMegabyte;
+  const auto bytes = [](bool varies, double floats) { return floats * sizeof(float) * (varies ? kBatch : kBlock); };
+  const double needed_bytes = bytes(true, code.varyingFloats) + bytes(false, code.uniformFloats);
+  if (needed_bytes <= kMost_bytes) return;
+  const auto own_bytes = [&](const Register& r) {
+    return bytes(r.varying, static_cast<double>(std::max(1, r.length)) * floatsOf(r.shape));
+  };
   const auto largest =
-      std::max_element(code.registers.begin(), code.registers.end(), [](const Register& a, const Register& b) {
-        return a.varying * a.length * floatsOf(a.shape) < b.varying * b.length * floatsOf(b.shape);
-      });
-  const auto megabytes = [&](int32_t floats) { return std::ceil(floats * (sizeof(float) * kBatch / kMegabyte)); };
+      std::max_element(code.registers.begin(), code.registers.end(),
+                       [&](const Register& a, const Register& b) { return own_bytes(a) < own_bytes(b); });
   messages.error(largest->place,
-                 fmt::format("what varies of this shader needs {} MB for {} points, \"{}\" most of it; {} MB are the "
+                 fmt::format("the variables of this shader need {} MB for {} points, \"{}\" most of it; {} MB are the "
                              "limit",
-                             megabytes(code.varyingFloats), kBatch, largest->name, megabytes(kMostFloats)),
+                             std::ceil(needed_bytes / kMegabyte), kBatch, largest->name, kMost_bytes / kMegabyte),
                  static_cast<int32_t>(largest->name.size()));
 }
 

@@ -68,7 +68,7 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
   } else {
     if (f.result != Type{}) result = add({.shape = shapeOf(f.result), .origin = Origin::Variable});
     if (result >= 0) initialise(result, shape(result) == Shape::Text ? text("") : number(0));
-    functions_.push_back({result, code_.labels++});
+    functions_.push_back({result, code_.labels++, f.result});
     Block body = block([&] { statement(*f.body); });
     Instruction& scope = emit(Op::Scope, {}, {});
     scope.extra = functions_.back().label;

@@ -145,6 +145,10 @@ int32_t Lowering::ofLamp(Global g) {
 int32_t Lowering::element(const Expr& e) {
   const int32_t array = value(*e.args[0]), index = value(*e.args[1]);
   if (e.args[0]->type.isTriple()) return compute(Op::Component, {array, index});
+  return element(array, index);
+}
+
+int32_t Lowering::element(int32_t array, int32_t index) {
   switch (shape(array)) {
     case Shape::Number:
       return compute(Op::ElementF, {array, index});

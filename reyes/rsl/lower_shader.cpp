@@ -2,8 +2,8 @@
 #include <iterator>
 #include <utility>
 
+#include "reyes/computed_default.h"
 #include "reyes/rsl/lowering.h"
-#include "reyes/rsl/machine/machine.h"
 #include "reyes/rsl/passes/passes.h"
 #include "reyes/rsl/passes/walk.h"
 
@@ -169,32 +169,29 @@ bool Lowering::constantDefault(const Variable& v, Parameter& p) {
     }
   }
   if (!constants) {
-    std::fill(p.floats.begin(), p.floats.end(), notGiven());
-    std::fill(p.texts.begin(), p.texts.end(), kTextNotGiven);
+    std::fill(p.floats.begin(), p.floats.end(), kComputedNumber);
+    std::fill(p.texts.begin(), p.texts.end(), kComputedText);
   }
   return constants;
 }
 
+// A scene may give the first elements of an array alone.
 void Lowering::computedDefault(const Variable& v, int32_t reg) {
-  int32_t first = reg;
-  if (v.type.isArray()) {
-    const Op element = shape(reg) == Shape::Number   ? Op::ElementF
-                       : shape(reg) == Shape::Triple ? Op::ElementT
-                       : shape(reg) == Shape::Matrix ? Op::ElementM
-                                                     : Op::ElementS;
-    first = compute(element, {reg, number(0)});
+  if (!v.type.isArray()) return ifElse(isMissing(reg), block([&] { copy(reg, value(*v.initial, v.type)); }), {});
+  const int32_t whole = add({.shape = shape(reg), .origin = Origin::Variable, .length = v.type.length});
+  initialiseArray(v, whole);
+  for (int32_t k = 0; k < v.type.length && hasRoom(); ++k) {
+    const int32_t at = number(static_cast<float>(k));
+    const int32_t missing = isMissing(element(reg, at));
+    ifElse(missing, block([&] { emit(Op::SetElement, {reg}, {at, element(whole, at)}); }), {});
   }
-  if (shape(first) == Shape::Triple) first = compute(Op::Component, {first, number(0)});
-  if (shape(first) == Shape::Matrix) first = compute(Op::MatrixElement, {first, number(0), number(0)});
-  const int32_t missing = shape(first) == Shape::Text ? compute(Op::TextEqual, {first, text(kTextNotGiven)})
-                                                      : compute(Op::NotEqual, {first, first});
-  Block given = block([&] {
-    if (v.type.isArray())
-      initialiseArray(v, reg);
-    else
-      copy(reg, value(*v.initial, v.type));
-  });
-  ifElse(missing, std::move(given), {});
+}
+
+int32_t Lowering::isMissing(int32_t reg) {
+  if (shape(reg) == Shape::Text) return compute(Op::TextEqual, {reg, text(kComputedText)});
+  if (shape(reg) == Shape::Triple) return isMissing(compute(Op::Component, {reg, number(0)}));
+  if (shape(reg) == Shape::Matrix) return isMissing(compute(Op::MatrixElement, {reg, number(0), number(0)}));
+  return compute(Op::NotEqual, {reg, reg});  // only a NaN differs from itself
 }
 
 void Lowering::initialiseArray(const Variable& v, int32_t reg) {
@@ -257,7 +254,7 @@ void Lowering::statement(const Stmt& s) {
       break;
     case StmtKind::Return: {
       const Inlined& function = functions_.back();
-      if (!s.exprs.empty() && s.exprs[0]) copy(function.result, value(*s.exprs[0]));
+      if (!s.exprs.empty() && s.exprs[0]) copy(function.result, value(*s.exprs[0], function.type));
       emit(Op::Leave, {}, {}).extra = function.label;
       break;
     }

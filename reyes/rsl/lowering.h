@@ -10,9 +10,6 @@ namespace tomales::compiler {
 
 Shape shapeOf(const Type& type);
 
-/// The value of a text whose default is computed when the shader runs: no user gives this one.
-constexpr const char* kTextNotGiven = "\x1bnot given";
-
 class Lowering {
  public:
   Lowering(Code& code, Messages& messages);
@@ -47,6 +44,8 @@ class Lowering {
   void givenParameter(const Variable& v);
   bool constantDefault(const Variable& v, Parameter& p);
   void computedDefault(const Variable& v, int32_t reg);
+  /// Returns a register that is 1 where the value is the mark of a default that the shader computes.
+  int32_t isMissing(int32_t reg);
   void statement(const Stmt& s);
   void declaration(const Variable& v);
   void initialiseArray(const Variable& v, int32_t reg);
@@ -79,6 +78,7 @@ class Lowering {
   int32_t name(const Expr& e);
   int32_t ofLamp(Global g);
   int32_t element(const Expr& e);
+  int32_t element(int32_t array, int32_t index);
   int32_t tuple(const Expr& e);
   int32_t binary(const Expr& e);
   int32_t conditional(const Expr& e);
@@ -126,6 +126,7 @@ class Lowering {
   std::vector<LoopLabels> loops_;
   struct Inlined {
     int32_t result = -1, label = -1;
+    Type type{};
   };
   std::vector<Inlined> functions_;
   Place place_{};

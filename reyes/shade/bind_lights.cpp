@@ -21,8 +21,9 @@ constexpr int kMostRays = 1 << 16;  ///< The limit for one irradiance sample.
 /// Returns the value of a light's parameter that is a count.
 int countOf(const BoundShader& light, TmRole role, int fallback, int least, int most, Log& log) {
   const float asked = light.number(role, static_cast<float>(fallback));
-  const auto used = static_cast<int>(std::clamp(asked, static_cast<float>(least), static_cast<float>(most)));
-  if (asked < static_cast<float>(least) || asked > static_cast<float>(most))
+  const float inRange = std::isnan(asked) ? static_cast<float>(fallback) : asked;
+  const auto used = static_cast<int>(std::clamp(inRange, static_cast<float>(least), static_cast<float>(most)));
+  if (!(asked >= static_cast<float>(least) && asked <= static_cast<float>(most)))
     log.report(Severity::Warning, "light-value", light.where,
                fmt::format("{}: {} {} is out of range; {} is used", light.user, light.find(role)->name, asked, used));
   return used;

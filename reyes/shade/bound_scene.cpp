@@ -63,12 +63,10 @@ void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
 
 /// docs/decisions/0004.
 float specularSharpnessOf(const Scene& scene, Log& log) {
-  std::string convention = wordOf(scene.options.user, "shade:specular");
+  const std::string convention = wordOf(scene.options.user, "shade:specular");
   if (!convention.empty() && convention != "prman" && convention != "rispec")
     log.report(Severity::Warning, "option-specular", {},
                "Option \"shade\" \"specular\" \"" + convention + "\" is neither \"prman\" nor \"rispec\"; ignored");
-  const Param* ofBmrt = findParam(scene.options.user, "render:prmanspecular");
-  if (convention.empty() && ofBmrt) convention = ofBmrt->number(0) != 0 ? "prman" : "rispec";
   return convention == "rispec" ? 1.0f : 8.0f;
 }
 
@@ -192,12 +190,8 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
   BoundGroup g;
   g.group = &group;
   const Attributes& a = *group.attributes;
-  SourceLoc where;
-  if (group.exampleObject >= 0) {
-    const Object& o = scene.objects[static_cast<size_t>(group.exampleObject)];
-    g.object = objectName(o);
-    where = o.where;
-  }
+  const SourceLoc& where = group.where;
+  g.object = objectName(group);
   g.surface = binder_->surface(a.surface, where, g.object);
   g.indirectSurface = binder_->indirectSurface(a, where, g.object);
   g.displacement = binder_->optional(a.displacement, g.object, TM_DISPLACEMENT);

@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reyes/base/near_names.h"
+#include "reyes/computed_default.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shader_registry.h"
@@ -137,8 +138,15 @@ class Binding {
       return;
     }
     ParameterValue parameter = valueOf(decl, param);
-    if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE)
-      bound_.told.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
+    if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE) {
+      if (param || !hasComputedDefault(decl))
+        bound_.told.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
+      else
+        warn("light-value", decl.name,
+             fmt::format("the shader computes the default of \"{}\" when it runs, which the renderer cannot know; it "
+                         "takes its own default",
+                         decl.name));
+    }
     if (typeOf(decl) == TM_STRING) {
       for (const std::string& s : parameter.strings) bound_.strings[i].append(s).push_back('\0');
       value.string = bound_.strings[i].c_str();

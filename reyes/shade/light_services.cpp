@@ -7,6 +7,7 @@
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/ray_shots.h"
 #include "reyes/shade/services.h"
 
 namespace tomales {
@@ -159,7 +160,8 @@ void shadow(void* host, const TmGrid* all, const char* name, const TmShadowOptio
   if (!batch.points || std::string_view(name) == "raytrace") return;
   const ShadowMap* map = batch.scene.shadowMaps.find(name, batch.running->where, batch.running->user);
   if (!map) return;
-  const TmShadowOptions options = givenOptions(batch, tmShadowDefaults(), given);
+  TmShadowOptions options = givenOptions(batch, tmShadowDefaults(), given);
+  options.samples = std::clamp(options.samples, 1, kMostSamples);
   const mat4 worldFromCurrent = glm::inverse(batch.scene.cameraFromWorld);
   forActive(g, [&](int i) {
     const ShadePoints& p = *batch.points;

@@ -60,7 +60,7 @@ std::string keyOf(const BoundLight& light) {
     if (isOutput(decl) || mayVary(decl)) continue;
     const TmValue& value = b.values[static_cast<size_t>(i)];
     key += "\n";
-    if (typeOf(decl) == TM_STRING) key += value.string ? value.string : "";
+    if (typeOf(decl) == TM_STRING) key += b.strings[static_cast<size_t>(i)];
     const int floats = floatsOf(typeOf(decl)) * std::max(1, decl.arrayLength);  // they lie one after another
     if (value.c[0]) key.append(reinterpret_cast<const char*>(value.c[0]), sizeof(float) * static_cast<size_t>(floats));
   }

@@ -28,7 +28,7 @@ std::vector<float> numbersOf(const Param& p) {
 std::vector<float> promoted(float x, size_t width) {
   if (width != 16) return std::vector<float>(width, x);
   std::vector<float> out(16, 0.0f);
-  for (size_t k = 0; k < 4; ++k) out[5 * k] = k < 3 ? x : 1.0f;
+  for (size_t k = 0; k < 4; ++k) out[5 * k] = x;
   return out;
 }
 

@@ -16,7 +16,7 @@ constexpr uint32_t kConeStream = randomStream("cone"), kBaseStream = randomStrea
 
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given) {
   TmRayOptions options = givenOptions(batch, tmRayDefaults(), given);
-  options.samples = std::clamp(options.samples, 1, 1 << 16);
+  options.samples = std::clamp(options.samples, 1, kMostSamples);
   options.drawn = std::clamp(options.drawn, 0, 1 << 14);
   options.number = std::clamp(options.number, 0, std::max(0, options.drawn - 1));
   options.coneAngle = std::clamp(options.coneAngle, 0.0f, kPi / 2);

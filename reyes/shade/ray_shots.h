@@ -4,6 +4,9 @@
 
 namespace tomales {
 
+/// The limit of the samples that a shader asks for at one point.
+inline constexpr int kMostSamples = 1 << 16;
+
 /// Returns the options of trace(), whose directions the caller may draw itself, and of the other services.
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
 TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);

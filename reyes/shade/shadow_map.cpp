@@ -147,7 +147,7 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
   const float extent = 1 + 0.5f * (glm::length(view.u) + glm::length(view.v) + glm::length(square));
   const float reach = steepest * view.texel * extent;
   vec3 sum(0.0f);
-  const int n = std::max(1, lookup.samples);
+  const int n = lookup.samples;
   for (int k = 0; k < n; ++k) {
     const vec2 xi = sobol2(static_cast<uint32_t>(k), lookup.seed) - vec2(0.5f);
     const vec2 at = view.at + xi * square + xi.x * view.u + xi.y * view.v;

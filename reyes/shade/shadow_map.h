@@ -21,9 +21,9 @@ struct ShadowReceiver {
 struct ShadowLookup {
   /// Distance by which a surface must be nearer to the light to cast a shadow; negative: by slope and texel size.
   float bias = -1;
-  float blur = 0;   ///< Added to the covered region, as a fraction of the map.
-  float width = 1;  ///< Scales the micropolygon.
-  int samples = 16;
+  float blur = 0;    ///< Added to the covered region, as a fraction of the map.
+  float width = 1;   ///< Scales the micropolygon.
+  int samples = 16;  ///< At least 1.
   uint32_t seed = 0;
 };
 

@@ -244,15 +244,15 @@ inline void splineWeights(Basis basis, float t, float* w) {
       w[3] = 0.5f * (t3 - t2);
   }
 }
-/// Returns the value at x, clamped to [0, 1], of a curve through n >= 4 knots. Hermite knots are points and tangents by
-/// turns.
+/// Returns the value at x, clamped to [0, 1], of a curve through n >= 4 knots, and at 0 if x is NaN. Hermite knots are
+/// points and tangents by turns.
 template <class T>
 T spline(Basis basis, float x, const T* knots, int n) {
   const int stride = basis == Basis::Bezier    ? 3
                      : basis == Basis::Hermite ? 2
                                                : 1,
             segments = std::max(1, (n - 4) / stride + 1);
-  const float along = clamp(x, 0, 1) * static_cast<float>(segments);
+  const float along = (x > 0 ? clamp(x, 0, 1) : 0.0f) * static_cast<float>(segments);
   const int segment = std::min(static_cast<int>(along), segments - 1);
   float w[4];
   splineWeights(basis, along - static_cast<float>(segment), w);

@@ -15,7 +15,8 @@ typedef struct TmServices {
   /* --- The surface */
 
   /* Maps between named spaces (current, camera, world, object, shader, raster, NDC, screen or a CoordinateSystem).
-   * `kind` is a TmTransformKind. Returns 0 and copies if a space is unknown. in and out may be the same. */
+   * `kind` is a TmTransformKind. Returns 0 and copies if a space is unknown, or if a vector or a normal would go to or
+   * from a projected space, where it has no meaning. in and out may be the same. */
   int32_t (*transform)(void* host, const TmGrid*, int32_t kind, const char* from, const char* to, TmConstVec3 in,
                        TmVec3 out);
   /* RISpec calculatenormal(): the normal that the batch's surface would have if its points were at P. A shader that is

@@ -2,7 +2,9 @@
 #pragma once
 #include <regex.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -60,9 +62,24 @@ std::string format(const std::string& pattern, const Values&... values) {
   return formatTexts(pattern, {text_detail::written(values)...});
 }
 
-/// Tells whether an extended regular expression fits any part of the text. One that is malformed fits nothing.
+/// Tells whether a regular expression is so long, or repeats so often ("((a{255}){255}){255}"), that to prepare it
+/// might take more memory than there is.
+inline bool isHugePattern(const std::string& pattern) {
+  constexpr double kMost = 4096;
+  double repetitions = 1;
+  for (size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '{') continue;
+    double most = 1;
+    for (; i < pattern.size() && pattern[i] != '}'; ++i) most = std::max(most, std::atof(&pattern[i]));
+    repetitions *= most;
+  }
+  return static_cast<double>(pattern.size()) > kMost || repetitions > kMost;
+}
+
+/// Tells whether an extended regular expression fits any part of the text. One that is malformed or huge fits nothing.
 inline bool match(const std::string& pattern, const std::string& text) {
   regex_t expression;
+  if (isHugePattern(pattern)) return false;
   if (regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
   const bool fits = regexec(&expression, text.c_str(), 0, nullptr, 0) == 0;
   regfree(&expression);

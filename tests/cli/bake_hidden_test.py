@@ -52,6 +52,9 @@ near("all of a ball, however little of it is seen", whole, all_of_it)
 near("all of a ball behind a wall", baked("behind", '"hidden" [0]', shapes=WALL + BALL)[0], all_of_it)
 near("what faces the eye of a one-sided ball", baked("one_sided", '"hidden" [0]', 1)[0], 0.375 * all_of_it)
 near("all of a one-sided ball", baked("facing_away", '"hidden" [0] "backfacing" [0]', 1)[0], all_of_it)
+TRIM = "TrimCurve [1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [.5 1.5 1.5 .5 .5] [.5 .5 1.5 1.5 .5] [1 1 1 1 1]\n"
+SHEET = 'NuPatch 3 2 [0 0 1 2 2] 0 2 3 2 [0 0 1 2 2] 0 2 "P" [-1 -1 0  0 -1 0  1 -1 0  -1 0 0  0 0 0  1 0 0  -1 1 0  0 1 0  1 1 0]\n'
+near("all of a trimmed sheet of four patches behind a wall", baked("trimmed", '"hidden" [0]', shapes=WALL + "ShadingRate .1\n" + TRIM + SHEET)[0], 3)
 far_below = "Translate 0 -9 0 " + BALL
 t.expect(not baked("outside", '"hidden" [0]', shapes=BALL + far_below)[0] > 1.01 * all_of_it, "but nothing outside the picture")
 

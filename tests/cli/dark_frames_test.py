@@ -112,6 +112,10 @@ t.expect(picture("prman") != picture("rispec"), "the two exponents differ")
 for name in ("switch", "bmrt_option"):
     t.expect(picture(name) == picture("rispec"), f"{name} has RISpec's")
 t.expect(picture("bmrt_attribute") == picture("prman"), "other requests of BMRT's change nothing")
+t.write("brdf.sl", "surface brdf() { normal n = normalize(N); Oi = 1; illuminance (P, n, PI / 2) Ci += Cl * specularbrdf(normalize(L), n, -normalize(I), .1); }")
+for name, option in (("brdf_rispec", 'Option "shade" "specular" "rispec"'), ("brdf_bmrt", 'Option "render" "prmanspecular" 0'), ("brdf_prman", "")):
+    told(name, SHINE.replace('Surface "metal" "Ka" 0 "roughness" .1', 'Surface "brdf"'), option)
+t.expect(picture("brdf_bmrt") == picture("brdf_rispec") != picture("brdf_prman"), "specularbrdf() has the exponent of specular()")
 told("back", SHINE, 'Option "render" "prmanspecular" 0', 0, "--specular", "prman")
 t.expect(picture("back") == picture("prman"), "and the command line decides")
 

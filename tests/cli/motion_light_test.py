@@ -25,4 +25,17 @@ t.expect("motion-light" not in said(-0.55, LAMP), "a ball that hardly moves")
 t.expect("motion-light" not in said(0.6, SUN), "a ball in the sun")
 t.expect("motion-light" not in said(0.6, LAMP + ' Illuminate "bulb" 0 ' + SUN), "a lamp that is switched off for the ball")
 t.expect("motion-light" not in said(0.6, LAMP, depth=-4), "a ball behind the eye")
+
+# Objects that rays do not meet are dropped once they are hidden.
+t.write("part.rib", "Sphere 0.4 -0.4 0.4 360\n")
+t.write("dropped.rib", f"""Format 32 32 1 PixelSamples 2 2 Projection "perspective" "fov" [40] Shutter 0 1 Display "dropped.exr" "openexr" "rgb" WorldBegin
+Attribute "light" "shadows" "on" {LAMP}
+Surface "matte" Polygon "P" [-2 -2 6  2 -2 6  2 2 6  -2 2 6]
+Attribute "visibility" "diffuse" 0 "specular" 0 "transmission" 0 "photon" 0
+MotionBegin [0 1] Translate -0.6 0 4 Translate 0.6 0 4 MotionEnd
+Procedural "DelayedReadArchive" ["part.rib"] [-1 1 -1 1 -1 1]
+WorldEnd
+""")
+for arguments in ((), ("--gi", "atlas", "--photons", "2000"), ("--gi", "gather")):
+    t.expect_run(f"a moving procedural that rays do not meet, {' '.join(arguments)}", ["dropped.rib", *arguments], 0)
 t.finish()

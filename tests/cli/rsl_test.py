@@ -107,6 +107,20 @@ t.write("light.sl", plain("light", "color(0, 1, 0)"))
 scene("kind", 'LightSource "green" 1 Surface "constant"')
 render("a surface that is named as a light", "kind", 3, "green.sl", 'has no light "green", but surface "green"')
 
+# Numbers given for other types, and defaults that the shader computes.
+t.write("ofmatrix.sl", "surface ofmatrix(matrix k = 1) { Oi = 1; Ci = determinant(k) / 32; }\n")
+scene("ofmatrix", 'Surface "ofmatrix" "k" [2]')
+render("a number for a matrix", "ofmatrix", 0)
+expect_all("ofmatrix", (.5, .5, .5), "is that multiple of the identity")
+t.write("part.sl", "surface part(float n = 2; float k[3] = {n, n, n}) { Oi = 1; Ci = color(k[0], k[1], k[2]) / 4; }\n")
+scene("part", 'Surface "part" "k" [1]')
+render("the first element of an array alone", "part", 0, "takes 3 numbers and was given 1")
+expect_all("part", (.25, .5, .5), "leaves the others their computed default")
+t.write("derived.sl", 'light derived(float n = 0; float __nondiffuse = n, __samples = 2 * n; string __category = "a") { solar(vector "shader" (0, 0, 1), 0) Cl = 1 + __nondiffuse * 0; }\n')
+scene("derived", 'LightSource "derived" 1 Surface "matte" "Ka" 0')
+render("a parameter for the renderer whose default the shader computes", "derived", 0, "light-value", '"__nondiffuse"')
+t.expect(all(c[0] > .9 for c in picture("derived").values()), "leaves the renderer its own default")
+
 # Errors of a shader are reported, and the frame is rendered.
 t.write("broken.sl", "surface broken(float Kd = 1) {\n  Oi = Os;\n  Ci = Kd * diffuse(N;\n}\n")
 scene("broken", 'Surface "broken"')

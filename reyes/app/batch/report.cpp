@@ -125,12 +125,6 @@ bool writeThumbnail(const std::string& picture, const std::string& file) {
   return writeImage(file, small, true, log);
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
-
 }  // namespace
 
 BatchReport reportOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
@@ -211,16 +205,16 @@ std::string pageOf(const BatchPlan& plan, const std::vector<TaskState>& states) 
   const BatchReport report = reportOf(plan, states);
   const std::string title = "Batch " + plan.folder().filename().string();
   Markup page;
-  page.openPage(escaped(title), escaped(title),
+  page.openPage(title, title,
                 "figure{display:inline-block;margin:4px;font-size:small}.failed{color:#c00}.blocked{color:#c00}td,th{"
                 "padding:0 8px}");
-  page.put("<pre>{}</pre>\n", escaped(textOf(plan, report)));
+  page.put("<pre>{}</pre>\n", escapeXml(textOf(plan, report)));
   const TemporaryFolder folder(fs::temp_directory_path());
   const std::string png = (folder.path() / "small.png").string();
   for (const std::string& picture : plan.pictures) {
     if (writeThumbnail((fs::path(plan.workingFolder) / picture).string(), png))
       page.put("<figure><img src=\"{}\"><figcaption>{}</figcaption></figure>\n", embedded(png),
-               escaped(fs::path(picture).filename().string()));
+               escapeXml(fs::path(picture).filename().string()));
   }
   page.put("<table><tr><th>frame<th>state<th>CPU s<th>wall s<th>memory<th>exit code</tr>\n");
   for (const auto& [number, f] : figuresOf(plan, states))

@@ -157,11 +157,11 @@ class Chart {
   }
 
   bool addBatch() {
-    if (reference_.batches() >= settings_.batches || batchSeconds_ > lab_.secondsLeft()) return false;
+    if (reference_.batches() >= settings_.batches || batchWall_s_ > lab_.secondsLeft()) return false;
     const auto run = render(referenceArguments_ + Arguments{sweep_.seed, std::to_string(reference_.batches() + 1)});
     if (!run) return false;
     report_.referenceSeconds += run->cpu_s;
-    if (!run->recalled) batchSeconds_ = run->wall_s;
+    if (!run->recalled) batchWall_s_ = run->wall_s;
     takeWarnings(*run);
     const auto image = readImage(run->picture, badBatch_);
     if (!image) return false;
@@ -264,8 +264,8 @@ class Chart {
   mutable Log log_;
   Arguments referenceArguments_;
   ChartReference reference_;
-  std::string badBatch_;     ///< Why the last batch cannot be used; empty if it can, or was not rendered.
-  double batchSeconds_ = 0;  ///< CPU seconds of the last batch that was rendered.
+  std::string badBatch_;    ///< Why the last batch cannot be used; empty if it can, or was not rendered.
+  double batchWall_s_ = 0;  ///< Time of the last batch that was rendered, by the clock.
   ChartReport report_;
 };
 

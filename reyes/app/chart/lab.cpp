@@ -88,17 +88,23 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& messag
 /// Ends the child when this process is interrupted or at the deadline.
 Ended await(pid_t child, Clock::time_point deadline) {
   Ended out;
-  const ChildGuard guard(child);
+  std::optional<ChildGuard> guard(child);
   const auto begin = Clock::now();
   rusage usage{};
   int status = 0;
-  while (wait4(child, &status, WNOHANG, &usage) == 0) {
+  const auto hasEnded = [child] {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == child;
+  };
+  while (!hasEnded()) {
     if (out.why.empty() && (interrupted() || Clock::now() > deadline)) {
       out.why = interrupted() ? "interrupted" : "over the budget";
       kill(-child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  guard.reset();
+  wait4(child, &status, 0, &usage);
   out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   out.cpu_s = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
   out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);

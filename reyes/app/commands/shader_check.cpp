@@ -1,17 +1,13 @@
 #include "reyes/app/commands/shader_check.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstring>
-#include <functional>
 
 #include "reyes/app/commands/guarded_shader.h"
 #include "reyes/app/commands/shader_scene.h"
+#include "reyes/base/apart.h"
 #include "reyes/dice.h"
 #include "reyes/frame.h"
 #include "reyes/image.h"
@@ -22,36 +18,7 @@ namespace tomales {
 namespace {
 
 constexpr std::array<int, 2> kGrid{13, 7};  // so that the last lanes of arrays are no points
-
-/// The text that a function in a child process returns, and the signal that has ended it, or 0.
-struct Outcome {
-  std::string text;
-  int signal = 0;
-};
-
-Outcome inChild(const std::function<std::string()>& run) {
-  int ends[2];
-  if (pipe(ends) != 0) return {};
-  const pid_t child = fork();
-  if (child == 0) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
-    const std::string text = run();
-    for (size_t done = 0; done < text.size();) {
-      const ssize_t n = write(ends[1], text.data() + done, text.size() - done);
-      if (n <= 0) break;
-      done += static_cast<size_t>(n);
-    }
-    _exit(0);
-  }
-  close(ends[1]);
-  Outcome out;
-  char part[4096];
-  for (ssize_t n; (n = read(ends[0], part, sizeof part)) > 0;) out.text.append(part, static_cast<size_t>(n));
-  close(ends[0]);
-  int status = 0;
-  if (child > 0 && waitpid(child, &status, 0) == child && WIFSIGNALED(status)) out.signal = WTERMSIG(status);
-  return out;
-}
+constexpr int kMostSeconds = 60;            // for a shader that does not end
 
 bool isBuiltIn(const TmShader& shader) {
   const TmShaderLibrary* library = tomales_builtin_shaders();
@@ -66,13 +33,13 @@ class Check {
 
   /// Returns what faultsOf() does.
   std::vector<std::string> faults() const {
-    const Outcome whole = inChild([&] { return runAll(); });
+    std::string fate;
+    const std::optional<std::string> lines = runInFork([&] { return runAll(); }, kMostSeconds, fate);
+    if (!lines) return {fmt::format("shader \"{}\" {}", shader_.name, fate)};
     std::vector<std::string> out;
-    for (size_t begin = 0, end; (end = whole.text.find('\n', begin)) != std::string::npos; begin = end + 1)
-      out.push_back(whole.text.substr(begin, end - begin));
-    if (whole.signal != 0)
-      out.push_back(fmt::format("shader \"{}\" crashes ({})", shader_.name, strsignal(whole.signal)));
-    else if (shader_.unlist && !isBuiltIn(shader_))  // the lights of the scene would add parameters of the same library
+    for (size_t begin = 0, end; (end = lines->find('\n', begin)) != std::string::npos; begin = end + 1)
+      out.push_back(lines->substr(begin, end - begin));
+    if (shader_.unlist && !isBuiltIn(shader_))  // the lights of the scene would add parameters of the same library
       addUnlisted(out);
     return out;
   }
@@ -142,8 +109,9 @@ class Check {
       run({});
       return std::string();
     };
+    std::string fate;
     for (int k = 0; const char* name = shader_.unlist(&shader_, k); ++k)
-      if (inChild(silently).signal != 0)
+      if (!runInFork(silently, kMostSeconds, fate))
         out.push_back(
             fmt::format("shader \"{}\" reads the parameter \"{}\", which it does not list", shader_.name, name));
   }

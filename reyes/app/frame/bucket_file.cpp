@@ -23,9 +23,20 @@ BucketFile::BucketFile(const Scene& scene, const DeepFrame& layout, int world, c
                fmt::format("{} of {} buckets were finished before", file_->tilesKept(), layout_.tileCount()));
 }
 
+std::optional<DeepTile> BucketFile::tile(size_t index) const {
+  const DfbWriter* const file = opened();
+  return file ? file->tile(index) : std::nullopt;
+}
+
+DfbWriter* BucketFile::opened() const {
+  const std::lock_guard lock(opening_);
+  return file_.get();
+}
+
 void BucketFile::keepForResume(size_t index, const DeepTile& tile) {
-  if (resumes_ && file_ && !file_->has(index) && !file_->write(index, tile))
-    log_.report(Severity::Note, "resume", {}, "buckets cannot be kept for --resume: " + file_->error());
+  DfbWriter* const file = resumes_ ? opened() : nullptr;
+  if (file && !file->has(index) && !file->write(index, tile))
+    log_.report(Severity::Note, "resume", {}, "buckets cannot be kept for --resume: " + file->error());
 }
 
 void BucketFile::spill(size_t index, const DeepTile& tile) {
@@ -38,7 +49,8 @@ void BucketFile::spill(size_t index, const DeepTile& tile) {
     log_.report(Severity::Output, "spill", {},
                 "the frame's buckets do not fit into memory, nor into a file beside \"" + picture_ +
                     "\", and some are left out: " + (file_ ? file_->error() : error));
-  ++spilled_;
+  else
+    ++spilled_;
 }
 
 void BucketFile::forget() {

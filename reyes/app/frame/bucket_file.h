@@ -13,23 +13,25 @@ class BucketFile {
  public:
   BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log);
 
-  std::optional<DeepTile> tile(size_t index) const { return file_ ? file_->tile(index) : std::nullopt; }
+  /// Returns nothing if the file has none of this number.
+  std::optional<DeepTile> tile(size_t index) const;
   /// Does nothing without --resume.
   void keepForResume(size_t index, const DeepTile& tile);
   void spill(size_t index, const DeepTile& tile);
-  int64_t spilled() const { return spilled_; }
+  int64_t spilled() const { return spilled_; }  ///< The number of buckets that spill() has written.
   /// Tells that the picture is written, so that nothing is left to resume.
   void forget();
 
  private:
+  DfbWriter* opened() const;
   std::unique_ptr<DfbWriter> openUnnamed(std::string& error) const;
 
   const std::string picture_;
   const DeepFrame layout_;
   Log& log_;
   const bool resumes_;
-  std::mutex opening_;
-  std::unique_ptr<DfbWriter> file_;
+  mutable std::mutex opening_;
+  std::unique_ptr<DfbWriter> file_;  ///< Set under the mutex, once, so a pointer to it stays good.
   std::atomic<int64_t> spilled_{0};
 };
 

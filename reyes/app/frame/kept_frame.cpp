@@ -16,11 +16,12 @@ void fields(A& a, ShadedPoints& x) {
 namespace {
 
 bool fits(const ShadedPoints& shaded, const ShadePoints& points) {
-  const auto count = static_cast<size_t>(points.count());
+  const auto count = static_cast<size_t>(padded(points.count()));  // as ShadedPoints::resize() has it
   const auto holds = [&](const AlignedVector<float>& v) { return v.size() == count; };
   const auto holdsOrNone = [&](const AlignedVector<float>& v) { return v.empty() || v.size() == count; };
   return std::ranges::all_of(shaded.Ci, holds) && std::ranges::all_of(shaded.Oi, holds) &&
-         std::ranges::all_of(shaded.airCi, holdsOrNone) && std::ranges::all_of(shaded.airOi, holdsOrNone);
+         std::ranges::all_of(shaded.variables, holds) && std::ranges::all_of(shaded.airCi, holdsOrNone) &&
+         std::ranges::all_of(shaded.airOi, holdsOrNone);
 }
 
 }  // namespace

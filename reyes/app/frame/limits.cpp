@@ -87,23 +87,22 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
 
 void warnOfThinWalls(const RayScene& rays, Log& log) {
   struct Thin {
-    const Object* worst;
+    const ShadeGroup* worst;
     double share;
     int others;
   };
   const Scene& scene = rays.scene();
   std::map<std::string, Thin> thin;  // by name, because a house has many attribute states
   for (const auto& [group, starts] : rays.starts()) {
-    const int example = scene.groups[static_cast<size_t>(group)].exampleObject;
-    if (example < 0 || starts.rays < kFewStarts) continue;
+    if (starts.rays < kFewStarts) continue;
     const double share = static_cast<double>(starts.crowded) / static_cast<double>(starts.rays);
     if (share <= kShareOfStarts) continue;
-    const Object& o = scene.objects[static_cast<size_t>(example)];
-    const auto [at, first] = thin.try_emplace(objectName(o), Thin{&o, share, 0});
+    const ShadeGroup& g = scene.groups[static_cast<size_t>(group)];
+    const auto [at, first] = thin.try_emplace(objectName(g), Thin{&g, share, 0});
     if (first) continue;
     ++at->second.others;
     if (share > at->second.share) {
-      at->second.worst = &o;
+      at->second.worst = &g;
       at->second.share = share;
     }
   }

@@ -59,12 +59,7 @@ bool tracesFullGeometry(const RenderSettings& settings) {
 
 /// Sets an option as if the scene had given it that string.
 void setWord(Options& options, const std::string& key, const std::string& value) {
-  if (value.empty()) return;
-  Param p;
-  p.name = key.substr(key.find(':') + 1);
-  p.type = ValueType::String;
-  p.strings = {value};
-  options.user[key] = p;
+  if (!value.empty()) options.user[key] = wordParam(key.substr(key.find(':') + 1), value);
 }
 
 void applyOverrides(Scene& scene, const RenderSettings& settings) {

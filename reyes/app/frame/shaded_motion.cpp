@@ -130,7 +130,7 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
   const Scene& scene = rays.scene();
   const MovedLight light(rays, shading);
   float most = 2 * kOff;
-  const Object* worst = nullptr;
+  const ShadeGroup* worst = nullptr;
   vec2 pixel(0);
   for (const ShadeGroup* g : movingGroups(scene)) {
     const std::vector<Place> first = placesOn(scene, g->exampleObject);
@@ -142,7 +142,7 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
     const float change = begins || ends ? light.change(g->attributes->lights, first, last) : 0;
     if (!(change > most)) continue;
     most = change;
-    worst = &scene.objects[static_cast<size_t>(g->exampleObject)];
+    worst = g;
     pixel = begins ? *begins : *ends;
   }
   if (!worst) return;

@@ -68,15 +68,22 @@ class Relight {
     std::printf("%s\n", server_.url().c_str());
     std::fflush(stdout);
     if (command_.opens) openBrowser();
-    int code = hide();
-    if (code == kDone) code = serve();
-    prepared_.open(false);
-    ended_ = true;
-    server_.stop();
-    return code;
+    const End end{*this};
+    const int code = hide();
+    return code == kDone ? serve() : code;
   }
 
  private:
+  /// Lets all handlers end, also if an exception ends this command: the server waits for them.
+  struct End {
+    Relight& relight;
+    ~End() {
+      relight.prepared_.open(false);
+      relight.ended_ = true;
+      relight.server_.stop();
+    }
+  };
+
   const RenderSettings& fileOfShot() {
     if (command_.hide) shot_.input.files = {(folder_.path() / "shot.dfb").string()};
     return shot_;
@@ -252,9 +259,9 @@ class Relight {
   Relighting relighting_;
   SavedEdits edits_;
   Gate prepared_;
-  HttpServer server_;
   Editor editor_;
   std::atomic<bool> ended_{false};
+  HttpServer server_;  ///< The last, since its handlers use all others until it ends.
 };
 
 }  // namespace

@@ -71,7 +71,8 @@ bool Relighting::prepare() {
       gather.stored.byLight = true;
       if ((job = ShotJob::open(gather, stats_, log_))) job->gatherIrradiance();
       job.reset();
-      settings_.stored.irradiance = gather.picture.output;
+      // Without the geometry nothing can be gathered; the job has said that indirect light is left out.
+      if (std::filesystem::exists(gather.picture.output)) settings_.stored.irradiance = gather.picture.output;
     }
   }
   if (interrupted() || !openFiles()) return false;

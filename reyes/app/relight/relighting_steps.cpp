@@ -191,12 +191,14 @@ void Relighting::gather(const Step& step) {
     job->gatherIrradiance();
   }
   const std::string before = settings_.stored.irradiance;
-  if (std::filesystem::exists(settings.picture.output)) settings_.stored.irradiance = settings.picture.output;
+  const bool isGathered = std::filesystem::exists(settings.picture.output);
+  if (isGathered) settings_.stored.irradiance = settings.picture.output;
   if (!openFiles()) throw std::runtime_error("what was gathered cannot be read");
   sketch_->forgetRays();
   if (before.starts_with(folder_.path().string()) && before != settings_.stored.irradiance)
     std::filesystem::remove(before);
   const std::lock_guard lock(mutex_);
+  if (!isGathered) return;
   gatheredFile_ = settings_.stored.irradiance;
   gathered_.push_back({p.x0 - window_.x0, p.y0 - window_.y0, p.x1 - window_.x0, p.y1 - window_.y0});
   for (Layer& layer : list_) layer.parts.forgetAll();

@@ -30,13 +30,11 @@ std::string pixelReport(const DeepTile& tile, int x, int y, int samplesPerPixel,
     const ShadePoints& points = tile.batches[b];
     const ShadedPoints& shaded = tile.shaded[b];
     const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
-    const std::string place =
-        group.exampleObject < 0 ? "no file" : scene.objects[static_cast<size_t>(group.exampleObject)].where.text();
     const vec3 Ci = mean(facet, [&](int p) { return shaded.color(p); }),
                Oi = mean(facet, [&](int p) { return shaded.opacity(p); });
     out += fmt::format(
         "  z {:.6g}  {} samples  {} ({})  {}{}\n    Ci {}  Oi {}  P {}  N {}\n", f.z, std::popcount(f.samples),
-        group.attributes->name.empty() ? "object" : "\"" + group.attributes->name + "\"", place,
+        group.attributes->name.empty() ? "object" : "\"" + group.attributes->name + "\"", group.where.text(),
         group.attributes->surface ? group.attributes->surface->name : "defaultsurface", facet.matte ? ", matte" : "",
         text(Ci), text(Oi), text(mean(facet, [&](int p) { return points.position(p); })),
         text(mean(facet, [&](int p) { return points.get3(kNx, p); })));

@@ -11,11 +11,6 @@
 
 namespace tomales::compiler {
 
-/// Returns the default of a parameter with Parameter::computed: RIB cannot give this value, so it means that nothing
-/// was given. It is a NaN, so x != x tells it, also after a transformation to current space.
-float notGiven();
-bool isNotGiven(float value);
-
 /// Limits the turns of all loops of one run, over its whole batch. More is reported as an endless loop, and the batch
 /// gets what the shader had so far. 0 means no limit. The default ends after seconds, not hours.
 void setLoopLimit(int64_t iterations);

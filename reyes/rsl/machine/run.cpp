@@ -9,9 +9,6 @@
 
 namespace tomales::compiler {
 
-float notGiven() { return std::numeric_limits<float>::quiet_NaN(); }
-bool isNotGiven(float value) { return std::isnan(value); }
-
 Run::Run(const Program& p, const TmGrid& g)
     : program(p),
       given(g),

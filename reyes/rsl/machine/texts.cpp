@@ -1,5 +1,7 @@
 // Texts: comparison, concat(), match(), format(), printf() (RISpec 15.5). A value that differs from point to point
 // counts as that of the first active point, except in printf().
+#include <fmt/format.h>
+
 #include "reyes/rsl/machine/call.h"
 #include "reyes/shader/text.h"
 
@@ -18,10 +20,19 @@ void match(Run& run, const PreparedInstruction& s) {
   setNumber(run, s.of->out[0], rsl::match(run.text(s.of->in[0]), run.text(s.of->in[1])) ? 1.0f : 0.0f);
 }
 
+/// Gives a register its text. One that grows without end, as `a = concat(a, a)` in a loop does, is cut.
+void setText(Run& run, const PreparedInstruction& s, std::string value) {
+  if (value.size() > kLongestText) {
+    run.missing(fmt::format("a text would be longer than {} bytes; it is cut", kLongestText));
+    value.resize(kLongestText);
+  }
+  run.variableText(s.of->out[0]) = std::move(value);
+}
+
 void concat(Run& run, const PreparedInstruction& s) {
   std::string all;
   for (const int32_t r : s.of->in) all += run.text(r);
-  run.variableText(s.of->out[0]) = std::move(all);
+  setText(run, s, std::move(all));
 }
 
 /// Returns a register's value at a point, as format() writes it, with spaces between the elements of arrays.
@@ -50,9 +61,7 @@ std::string formatted(const Run& run, const Instruction& of, int32_t i) {
   return rsl::formatTexts(run.text(of.in[0]), values);
 }
 
-void format(Run& run, const PreparedInstruction& s) {
-  run.variableText(s.of->out[0]) = formatted(run, *s.of, run.firstActive());
-}
+void format(Run& run, const PreparedInstruction& s) { setText(run, s, formatted(run, *s.of, run.firstActive())); }
 
 /// Prints a line for each active point (RISpec 15.5).
 void print(Run& run, const PreparedInstruction& s) {

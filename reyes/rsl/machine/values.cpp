@@ -86,8 +86,7 @@ void spline(Run& run, const PreparedInstruction& s) {
   for (int32_t c = 0; c < width; ++c)
     for (int32_t i = 0; i < pointsOf(run, to); ++i) {
       if (i == 0 || knots.vary) knots.fill(own, c, i);
-      const float at = x(i);
-      write(run, to, i, c, at == at ? curve(basis, solved, at, own) : 0.0f);
+      write(run, to, i, c, curve(basis, solved, x(i), own));
     }
 }
 

@@ -52,6 +52,8 @@ class Lives {
 
 class Slots {
  public:
+  static constexpr int32_t kMostSlots = 1 << 30;
+
   /// Takes the first place of `width` slots that is free from `first` to `last`.
   int32_t take(int32_t width, Life life) {
     std::erase_if(taken_, [&](const Taken& t) { return t.life.last < life.first; });
@@ -60,6 +62,10 @@ class Slots {
     for (const Taken& t : taken_) {
       if (t.slot - slot >= width) break;
       slot = std::max(slot, t.slot + t.width);
+    }
+    if (width > kMostSlots - slot) {  // far beyond what is accepted: the shader is refused
+      size = kMostSlots;
+      return 0;
     }
     taken_.push_back({slot, width, life});
     size = std::max(size, slot + width);

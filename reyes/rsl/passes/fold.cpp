@@ -141,6 +141,7 @@ class Folding {
         if (at(r).shape != Shape::Text) return false;
         all += at(r).texts[0];
       }
+      if (all.size() > kLongestText) return false;  // the machine cuts it, and says so
       become(i, text(all));
       return true;
     }

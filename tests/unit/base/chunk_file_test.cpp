@@ -110,5 +110,17 @@ TEST_F(ChunkFile, AFolderThatIsMissingIsAnError) {
   EXPECT_THROW(ChunkWriter((folder / "missing" / "a").string(), "TESTFILE", 3), FileError);
 }
 
+TEST_F(ChunkFile, OfAnotherVersionIsNotTakenForDamaged) {
+  write();
+  try {
+    const ChunkReader r(path, "TESTFILE", 4);
+    FAIL();
+  } catch (const DamageError&) {
+    FAIL() << "files that are damaged are removed and made anew";
+  } catch (const FileError& e) {
+    EXPECT_NE(std::string(e.what()).find("version 3"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace tomales

@@ -449,5 +449,30 @@ TEST_F(BrickMaps, ADamagedFileIsAnErrorAndNeverOtherData) {
   }
 }
 
+TEST_F(BrickMaps, FilesWhoseNodesAreNoTreeAreRefused) {
+  const auto refuses = [&](const std::vector<BrickNode>& nodes, int deepest) {
+    BrickFileWriter file(path);
+    for (size_t i = 0; i < nodes.size(); ++i) file.add(Brick(1));
+    BrickTree tree;
+    tree.nodes = nodes;
+    tree.deepest = deepest;
+    file.finish({{"value", 1}}, tree, {});
+    try {
+      const BrickFile opened(path);
+    } catch (const DamageError&) {
+      return true;
+    }
+    return false;
+  };
+  BrickNode one, both;
+  one.child[0] = 0;
+  both.child[0] = both.child[1] = 0;
+  EXPECT_FALSE(refuses({{}, one}, 1));
+  EXPECT_TRUE(refuses({{}, both}, 1)) << "a node that hangs on its parent twice";
+  EXPECT_TRUE(refuses({{}, one}, 0)) << "more levels than it says";
+  EXPECT_TRUE(refuses({{}, {}}, 1)) << "a node that hangs on nothing";
+  EXPECT_TRUE(refuses({{}}, 22)) << "more levels than there may be";
+}
+
 }  // namespace
 }  // namespace tomales

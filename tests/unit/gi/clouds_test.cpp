@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "gi/photons/irradiance.h"
 #include "gi/point_file.h"
 #include "tests/unit/temporary.h"
 
@@ -195,6 +196,19 @@ TEST_F(Clouds, APhotonMapTellsOfItsIrradiance) {
   for (const size_t i : {size_t{16 * 32 + 16}, size_t{12 * 32 + 20}})
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(e[c][i], 1024 * (c == 0 ? 2 : c == 1 ? 1 : 0.5) / double{kPi}, 0.1 * 1024 / double{kPi});
+  TmPhotonOptions least = tmPhotonDefaults();
+  least.estimator = 1;
+  ASSERT_TRUE(
+      files.photons(wall.query(path("photons.ptc"), 0, 1024), least, {e[0].data(), e[1].data(), e[2].data()}, problem));
+  EXPECT_GT(e[0][16 * 32 + 16], 0) << "an estimate of one photon would be of no area";
+}
+
+TEST_F(Clouds, PhotonsWhosePowerIsNoColorAreRefused) {
+  PointCloud photons;
+  photons.channels = {{"power", 3}, {"pathpower", 1}};
+  EXPECT_EQ(powerOffset(photons.channels), 0);
+  photons.channels = {{"power", 1}};
+  EXPECT_EQ(powerOffset(photons.channels), -1);
 }
 
 }  // namespace

@@ -270,6 +270,7 @@ TEST(Hemisphere, ALightThatFillsTheHemisphereHasNoHessian) {
   const Curved seen = lookCurved([](const vec3&, const vec3&) { return Seen{vec3(1), 2}; }, 600, 1);
   EXPECT_NEAR(seen.curvature.xx.x, 0, 1e-4f);
   EXPECT_GT(hessianRadius(seen.curvature, 1, 0.1f, 1), 2);
+  EXPECT_FALSE(std::isnan(hessianRadius(seen.curvature, -1, 0.1f, 1))) << "estimates of light may be negative";
 }
 
 }  // namespace

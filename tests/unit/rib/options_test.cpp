@@ -285,5 +285,16 @@ TEST(Projection, WhoseFieldOfViewHasNoNumberHasThatOfTheSpecification) {
   EXPECT_EQ(r.scene().options.fov_degrees, 90);
 }
 
+TEST(Projection, BeginsAnew) {
+  const Reading r("Projection \"perspective\" \"fov\" 40 Projection \"perspective\"" + inWorld(""));
+  EXPECT_EQ(r.scene().options.fov_degrees, 90);
+}
+
+TEST(Projection, ThatIsUnknownLeavesTheCameraAsItIs) {
+  const Reading r("Projection \"perspective\" \"fov\" 40 Translate 0 0 5 Projection \"fisheye\"" + inWorld(kSphere));
+  EXPECT_EQ(r.scene().options.fov_degrees, 40);
+  EXPECT_EQ(r.scene().cameraFromWorldAtOpen()[3].z, 5);
+}
+
 }  // namespace
 }  // namespace tomales

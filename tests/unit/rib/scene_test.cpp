@@ -288,5 +288,25 @@ TEST(EmptyMesh, IsAWarningOnly) {
   EXPECT_EQ(r.log.worst(), Severity::Warning);
 }
 
+TEST(Shaders, BeforeTheWorldKeepTheSpaceInWhichTheyWereNamed) {
+  const Reading r(
+      "Translate 0 0 5 Surface \"matte\" Displacement \"dented\" Atmosphere \"fog\" Interior \"a\" Exterior \"b\" "
+      "Imager \"background\"" +
+      inWorld(kSphere));
+  const Attributes& a = r.attributes(0);
+  for (const auto& call : {a.displacement, a.atmosphere, a.interior, a.exterior})
+    EXPECT_EQ(call->worldFromShader, a.surface->worldFromShader) << call->name;
+  EXPECT_EQ(r.scene().options.imager->worldFromShader, a.surface->worldFromShader);
+  EXPECT_EQ(r.scene().cameraFromWorld * a.surface->worldFromShader, r.scene().cameraFromWorld);
+}
+
+TEST(Resource, OfShadingHoldsTheAtmosphere) {
+  const Reading r(inWorld(
+      "AttributeBegin Atmosphere \"fog\" Resource \"r\" \"attributes\" \"string operation\" \"save\" AttributeEnd "
+      "Resource \"r\" \"attributes\" \"string operation\" \"restore\" \"string subset\" \"shading\" " +
+      kSphere));
+  ASSERT_TRUE(r.attributes(0).atmosphere);
+}
+
 }  // namespace
 }  // namespace tomales

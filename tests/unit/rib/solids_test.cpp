@@ -79,5 +79,15 @@ TEST(Solids, AreCountedWhereTheyNestBeyondUse) {
   EXPECT_EQ(r.scene().objects.size(), 1U);
 }
 
+TEST(Solids, StayAroundAttributesThatAreRestored) {
+  const std::string save = "Resource \"a\" \"attributes\" \"string operation\" \"save\" ",
+                    restore = "Resource \"a\" \"attributes\" \"string operation\" \"restore\" ";
+  const Reading inside(inWorld(save + "SolidBegin \"primitive\" " + restore + kSphere + "SolidEnd"));
+  EXPECT_EQ(inside.object(0).solid, 0);
+  const Reading after(inWorld("SolidBegin \"primitive\" " + save + kSphere + "SolidEnd " + restore + kSphere));
+  EXPECT_EQ(after.object(0).solid, 0);
+  EXPECT_EQ(after.object(1).solid, -1);
+}
+
 }  // namespace
 }  // namespace tomales

@@ -107,6 +107,10 @@ Cases functionCases() {
       {"an output array", "void f(output float a[2]) { a[0] = 3; a[1] = 4; } float b[2]; f(b); x = b[0] * 10 + b[1];",
        34},
       {"a text", "float f(string a) { if (a == \"one\") return 1; return 2; } x = f(\"one\") * 10 + f(\"two\");", 12},
+      {"a number that is returned early as a matrix",
+       "x = determinant(unit(s));",
+       [](float i) { return i > 4 ? 1.0f : 16.0f; },
+       {.outside = "matrix unit(float k) { if (k > 4) return 1; return 2; }"}},
       {"a matrix", "vector f(matrix m) { return vtransform(m, vector P); } w = f(2);",
        [](float i) {
          return Vec3{2 * i, 4 * i, 6};

@@ -242,8 +242,11 @@ TEST(Said, IsWhatIsWrong) {
 
 TEST(Said, IsThatAShaderNeedsMoreMemoryThanItMay) {
   EXPECT_EQ(saidOf("float a[131072]; a[0] = s; Ci = a[s];"),
-            "what varies of this shader needs 129 MB for 256 points, \"a\" most of it; 128 MB are the limit\n");
+            "the variables of this shader need 129 MB for 256 points, \"a\" most of it; 128 MB are the limit\n");
   EXPECT_EQ(saidOf("uniform float a[200000]; a[0] = 3; Ci = a[1];"), "") << "one for all points";
+  EXPECT_NE(saidOf("uniform float a[1000000], b[1000000], c[1000000]; a[0] = b[0] = c[0] = 1;"
+                   " Ci = a[1] + b[1] + c[1];"),
+            "");
   EXPECT_EQ(saidOf("float a[10000]; a[0] = s; Ci = a[s];"), "");
 }
 

@@ -1,6 +1,7 @@
 // What registers hold: globals of every kind of shader, parameters, outputs, arrays, texts.
 #include <gtest/gtest.h>
 
+#include "reyes/computed_default.h"
 #include "reyes/rsl/machine/machine.h"
 #include "reyes/shader/shadeops.h"
 #include "tests/unit/rsl_machine/builder.h"
@@ -191,10 +192,8 @@ TEST_F(Values, OfParametersMayBeArraysMatricesAndTexts) {
       "6.000000 7.000000 8.000000 9.000000 10.000000 11.000000 12.000000 13.000000 14.000000 15.000000|one two two");
 }
 
-TEST_F(Values, WhatIsNotGivenTellsItself) {
-  EXPECT_TRUE(isNotGiven(notGiven()));
-  EXPECT_FALSE(isNotGiven(0));
-  const int32_t a = b.parameter("a", Base::Float, {notGiven()}), o = output();
+TEST_F(Values, TheMarkOfAComputedDefaultDiffersFromItself) {
+  const int32_t a = b.parameter("a", Base::Float, {kComputedNumber}), o = output();
   b.branch(b.value(Op::NotEqual, {a, a}), [&] { b.copy(a, b.global("s", Shape::Number)); });
   b.copy(o, a);
   run();
