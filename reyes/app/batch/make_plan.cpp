@@ -125,15 +125,16 @@ class PlanMaker {
     target_ = options_.targetArguments;
     const RenderSettings& render = options_.render;
     const bool isOneFrame =
-        scene_.frames.size() == 1 && render.quality.shotSettings.empty() && !render.quality.pilotFrames;
+        scene_.frames.size() == 1 && render.quality.animationSettings.empty() && !render.quality.pilotFrames;
     if (!render.quality.chooses() || isOneFrame) return needs;
     std::vector<int> numbers;
     for (const auto& [number, frame] : scene_.frames) numbers.push_back(number);
     const std::vector<int> pilots =
         render.quality.pilotFrames.value_or(pilotsOf(render.input.frames.value_or(numbers)));
-    const std::string file = render.quality.shotSettings.empty() ? (plan_.folder() / "work" / "settings.json").string()
-                                                                 : render.quality.shotSettings;
-    if (render.quality.shotSettings.empty()) append(target_, {"--shot-settings", file});
+    const std::string file = render.quality.animationSettings.empty()
+                                 ? (plan_.folder() / "work" / "settings.json").string()
+                                 : render.quality.animationSettings;
+    if (render.quality.animationSettings.empty()) append(target_, {"--animation-settings", file});
     if (!render.quality.pilotFrames) append(target_, {"--pilot-frames", fmt::format("{}", fmt::join(pilots, ","))});
     std::vector<std::string> arguments{"render", "--frames", "none", "--makes", "none"};
     append(arguments, options_.pictureArguments);

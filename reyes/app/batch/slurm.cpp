@@ -159,7 +159,7 @@ Arrays arraysOf(const std::vector<BatchTask>& wanted) {
   return out;
 }
 
-/// Returns a plan of these tasks alone: that of a long shot has many megabytes, which each task would read.
+/// Returns a plan of these tasks alone: that of a long animation has many megabytes, which each task would read.
 BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
   BatchPlan out{plan.folder() / (array.name + ".json"), plan.workingFolder, {}, {}};
   for (const BatchTask* t : array.tasks) {

@@ -18,7 +18,7 @@ constexpr Group kGroups[] = {
     {"Run", " -t --progress --stats -q -v --resume --memory-limit --json -h --help --help-all "},
     {"Picture, in detail", " --one-picture --overwrite --skip-finished --seed --bucket-size --preview --pixel ", false},
     {"Light, in detail",
-     " --target-error --target-smudges --time-budget --pilot-frames --shot-settings --audit-every --max-error "
+     " --target-error --target-smudges --time-budget --pilot-frames --animation-settings --audit-every --max-error "
      "--error-function --indirect-only --light-samples --light-seed "
      "--photons --photon-noise "
      "--atlas-direct --atlas "

@@ -100,17 +100,17 @@ void addTarget(CLI::App& app, QualitySettings& s) {
     }
 }
 
-void addShotTarget(CLI::App& app, QualitySettings& s) {
+void addAnimationTarget(CLI::App& app, QualitySettings& s) {
   addParsed(app, "--pilot-frames", s.pilotFrames, parseFrames, "1,50,100",
             "With --target-error or --time-budget: the frames on which settings of light are found for all frames "
             "(default: the first, the middle and the last)");
-  app.add_option(
-         "--shot-settings", s.shotSettings,
-         "Store the settings that were found for the shot in this file; if it exists, use its settings: runs that make "
-         "other frames of the shot then light them alike")
+  app.add_option("--animation-settings", s.animationSettings,
+                 "Store the settings that were found for the animation in this file; if it exists, use its settings: "
+                 "runs that make "
+                 "other frames of the animation then light them alike")
       ->type_name("FILE.json");
   app.add_option("--audit-every", s.auditEvery,
-                 "Audit the frames whose number N divides, with the settings of the shot; 0: none (default 10)")
+                 "Audit the frames whose number N divides, with the settings of the animation; 0: none (default 10)")
       ->check(CLI::Range(0, 1'000'000));
 }
 

@@ -48,7 +48,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s);        ///< Threads, stati
 /// --target-error, --time-budget. Pre: the options of the command that it excludes have been added.
 void addTarget(CLI::App& app, QualitySettings& s);
 /// Adds the same options for a run that renders several frames.
-void addShotTarget(CLI::App& app, QualitySettings& s);
+void addAnimationTarget(CLI::App& app, QualitySettings& s);
 void addWatching(CLI::App& app, RenderSettings& s);  ///< --preview, --pixel
 
 }  // namespace tomales

@@ -32,15 +32,15 @@ class PilotRun {
   std::optional<HeldQuality> run() {
     held_.pilots = settings_.quality.pilotFrames ? *settings_.quality.pilotFrames : pilotsOf(frames());
     if (held_.pilots.empty() ||
-        (held_.pilots.size() == 1 && settings_.quality.shotSettings.empty() && !settings_.quality.pilotFrames))
+        (held_.pilots.size() == 1 && settings_.quality.animationSettings.empty() && !settings_.quality.pilotFrames))
       return std::nullopt;
     read([this](Scene&& scene) { take(scene); }, true);
     if (interrupted()) return std::nullopt;
     // A file that says that nothing was chosen keeps others from trying again.
-    if (held_.worlds.empty()) return settings_.quality.shotSettings.empty() ? std::nullopt : std::optional(held_);
+    if (held_.worlds.empty()) return settings_.quality.animationSettings.empty() ? std::nullopt : std::optional(held_);
     std::vector<std::string> chosen;
     for (const LightQuality& q : held_.worlds) chosen.push_back(optionsOf(q));
-    log_.report(Severity::Note, "shot-settings", {},
+    log_.report(Severity::Note, "animation-settings", {},
                 fmt::format("found on {} {}; all frames have: {}", held_.pilots.size() > 1 ? "frames" : "frame",
                             fmt::join(held_.pilots, ", "), fmt::join(chosen, "; in the next world: ")));
     return held_;
@@ -112,18 +112,18 @@ class PilotRun {
 
 }  // namespace
 
-bool holdsForShot(const RenderSettings& s) {
-  return s.quality.chooses() &&
-         (!s.input.frames || s.input.frames->size() > 1 || s.quality.pilotFrames || !s.quality.shotSettings.empty());
+bool holdsForAnimation(const RenderSettings& s) {
+  return s.quality.chooses() && (!s.input.frames || s.input.frames->size() > 1 || s.quality.pilotFrames ||
+                                 !s.quality.animationSettings.empty());
 }
 
 std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& log) {
-  const std::string& file = settings.quality.shotSettings;
+  const std::string& file = settings.quality.animationSettings;
   if (!file.empty() && fs::exists(file)) {
     std::string error;
     auto held = readHeldQuality(file, settings.quality, error);
     if (!held)
-      log.report(Severity::Error, "shot-settings", {std::make_shared<std::string>(file), 0},
+      log.report(Severity::Error, "animation-settings", {std::make_shared<std::string>(file), 0},
                  "cannot be used: " + error);
     return held;
   }
@@ -134,7 +134,7 @@ std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& 
   try {
     writeHeldQuality(file, *held, settings.quality);
   } catch (const WriteError& e) {
-    log.report(Severity::Output, "shot-settings", {std::make_shared<std::string>(file), 0}, e.what());
+    log.report(Severity::Output, "animation-settings", {std::make_shared<std::string>(file), 0}, e.what());
   }
   return held;
 }

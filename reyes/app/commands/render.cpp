@@ -57,7 +57,7 @@ class RenderRun {
 
   int run() {
     RibSettings rib;
-    if (holdsForShot(settings_)) {
+    if (holdsForAnimation(settings_)) {
       held_ = findHeldQuality(settings_, log_);
       if (!held_ && log_.worst() >= Severity::Error) return exitCodeOf(log_);
       report_.skip();
@@ -139,7 +139,7 @@ class RenderRun {
     beginReading();
   }
 
-  /// Returns the settings of a frame, with those of light that hold for the shot.
+  /// Returns the settings of a frame, with those of light that hold for the animation.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
     out.quality.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
@@ -153,7 +153,7 @@ class RenderRun {
       describeQuality(scene.options, optionsOf(held_->worlds[world]), out);
       out.quality.auditsHeld =
           out.quality.targetError > 0 && out.quality.auditEvery > 0 && frame % out.quality.auditEvery == 0;
-    } else if (holdsForShot(settings_)) {  // of a stream that cannot be read twice, the first frame decides
+    } else if (holdsForAnimation(settings_)) {  // of a stream that cannot be read twice, the first frame decides
       out.quality.onQuality = [this, world](const LightQuality& q) {
         if (!held_) held_.emplace();
         mergeQuality(*held_, world, q, settings_.quality);

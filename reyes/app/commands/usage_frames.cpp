@@ -42,7 +42,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
       ->type_name("COMMAND");
   addMemoryLimit(*c, in.render, "(default: no limit)");
   addTarget(*c, in.render.quality);
-  addShotTarget(*c, in.render.quality);
+  addAnimationTarget(*c, in.render.quality);
   c->add_option("SCENE", in.render.input.files, "RIB files")->required();
   c->callback([&] { code = renderCommand(in.render); });
 }
@@ -225,7 +225,7 @@ void buildBatch(CLI::App& app, Invocation& in, int& code) {
   });
   const auto target = added(*c, [&] {
     addTarget(*c, s.quality);
-    addShotTarget(*c, s.quality);
+    addAnimationTarget(*c, s.quality);
   });
   for (const char* passes : {"--tiles", "--share-records"})
     for (const char* chooses : {"--target-error", "--time-budget"})

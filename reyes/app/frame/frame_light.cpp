@@ -29,7 +29,7 @@ void FrameLight::make(bool gathers) {
   if (interrupted()) return;
   tellAudit(report);
   if (quality.isHeld && quality.targetError > 0)
-    tellMissed(report, quality, optionsOf(job_.quality()) + ", which hold for the shot", job_.log());
+    tellMissed(report, quality, optionsOf(job_.quality()) + ", which hold for the animation", job_.log());
 }
 
 /// Tells whether rays and records decide the error of the light; says so if not.

@@ -76,7 +76,7 @@ std::optional<HeldQuality> readHeldQuality(const std::string& file, const Qualit
           {w.at("samples").get<int>(), w.at("max_error").get<float>(), w.at("light_samples").get<int>()});
     return out;
   } catch (const Json::exception&) {
-    error = "it does not hold settings of light as --shot-settings writes them";
+    error = "it does not hold settings of light as --animation-settings writes them";
     return std::nullopt;
   }
 }
