@@ -134,6 +134,7 @@ struct Scene {
 /// Returns false if the scene was read from a .dfb, which leaves shapes out.
 inline bool hasGeometry(const Scene& scene) { return scene.objects.empty() || !scene.objects.front().shapes.empty(); }
 
-std::string objectName(const Object& object);  ///< Its identifier name, or "object at FILE:LINE".
+std::string objectName(const Object& object);     ///< Its identifier name, or "object at FILE:LINE".
+std::string objectName(const ShadeGroup& group);  ///< The same of its first object.
 
 }  // namespace tomales

@@ -29,6 +29,7 @@ constexpr double kLeastOfMap = 1e-3;
 std::vector<double> boxAreas(const Scene& scene) {
   std::vector<double> areas(scene.groups.size(), 0.0);
   for (const Object& o : scene.objects) {
+    if (o.shapes.empty()) continue;  // the scene has dropped it
     Bound3 bound;
     for (uint32_t patch = 0; patch < o.shape().patchCount(); ++patch) bound.extend(o.shape().bound(patch, {}));
     const vec3 s = bound.empty() ? vec3(0) : transformBound(o.worldFromObject.keys.front(), bound).size();

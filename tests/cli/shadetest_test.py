@@ -79,6 +79,7 @@ check("rays that are not declared", "b.trace(b.facingNormals());", ["has not dec
 check("a displacement", "rsl::Array far(g); for (int i = 0; i < g->count; ++i) g->P.x[i] += 1;", ["writes P of points that are not active"], kind="TM_DISPLACEMENT")
 check("a light", "for (int i : b) b.illuminate(i, {0, 0, -1 / g->s[0] * 0}, {1, 1, 1}); for (int i = 0; i < g->count; ++i) g->Cl.x[i] = 1;", ["writes Cl of points that are not active"],
       kind="TM_LIGHT", capabilities="TM_LIGHT_SOLAR")
+check("a shader that ends the program", "std::exit(0);", ['shader "tried" ends the program'])
 check("a crash", "*(volatile int*)8 = 1;", ['shader "tried" crashes (Segmentation fault)'])
 second = {"before": 'rsl::FloatParam mine("mine", 1, ""), its("its", 1, "");\nvoid other(const TmGrid* g) { for (int i : rsl::Batch(g)) rsl::Batch(g).output(i, {0, 0, 0}, {its(g, i), 1, 1}); }',
           "params": "&mine", "after": 'const rsl::Shader second(TM_SURFACE, "second", "", 0, other, {&its});', "also": ", second"}

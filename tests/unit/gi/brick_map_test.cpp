@@ -452,7 +452,7 @@ TEST_F(BrickMaps, ADamagedFileIsAnErrorAndNeverOtherData) {
 TEST_F(BrickMaps, FilesWhoseNodesAreNoTreeAreRefused) {
   const auto refuses = [&](const std::vector<BrickNode>& nodes, int deepest) {
     BrickFileWriter file(path);
-    for (size_t i = 0; i < nodes.size(); ++i) file.add(Brick(1));
+    for (size_t i = 0; i < nodes.size(); ++i) file.add(Brick(Brick::Parts(), 1, 0));
     BrickTree tree;
     tree.nodes = nodes;
     tree.deepest = deepest;

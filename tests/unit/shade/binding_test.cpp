@@ -210,7 +210,7 @@ TEST(ParameterValues, NumbersAreConvertedWhereTheSpecificationAllows) {
       {TM_COLOR, 1, given(ValueType::Float, {1, 2, 3}), {1, 2, 3}, true},
       {TM_COLOR, 1, given(ValueType::Point, {1, 2, 3}), {1, 2, 3}, true},
       {TM_POINT, 1, given(ValueType::HPoint, {2, 4, 6, 2}), {1, 2, 3}, true},
-      {TM_MATRIX, 1, given(ValueType::Float, {2}), {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}, true},
+      {TM_MATRIX, 1, given(ValueType::Float, {2}), {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2}, true},
       {TM_FLOAT, 3, given(ValueType::Color, {1, 2, 3}), {1, 2, 3}, true},
       {TM_FLOAT, 3, given(ValueType::Float, {1, 2}), {1, 2, 0.5f}, true},
       {TM_FLOAT, 1, given(ValueType::Float, {1, 2}), {1}, true},
