@@ -34,6 +34,10 @@ def rays(name):
     return sum(json.loads((t.folder / name).read_text())["rays"].values())
 
 
+def shaded(name):
+    return json.loads((t.folder / name).read_text())["shade"]["vertices_shaded"]
+
+
 def cut(at, number, *line):
     """Starts a frame and sends it a signal when it has come to so many percent. If the signal comes so late that nothing is left to resume,
     the frame is rendered again."""
@@ -66,6 +70,8 @@ for at, number in ((40, signal.SIGKILL), (60, signal.SIGTERM), (85, signal.SIGKI
     cut(at, number, "room.rib")
     share = resumed("room.rib")
     t.expect(share < {40: 0.95, 60: 0.6, 85: 0.1}[at], f"    with {share:.3f} of its rays")
+    points = shaded("rest.json") / shaded("whole.json")
+    t.expect(points < {40: 0.95, 60: 0.6, 85: 0.1}[at], f"    and {points:.3f} of its points")
     if number == signal.SIGTERM:
         redone = (rays("cut.json") + rays("rest.json") - rays("whole.json")) / rays("cut.json")
         t.expect(redone < 0.1, f"    of which {redone:.3f} had been traced before")
