@@ -63,7 +63,7 @@ class IrradianceCache {
   /// Returns the weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to
   /// `shadingNormal`. pixelSize: root of the projected pixel area at x. light: as in the lookup of many places below.
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize,
-                            std::span<const LightShare> light = {}) const;
+                            std::span<const IrradianceExpansion> light = {}) const;
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, float pixelSize) const {
     return lookup(x, normal, normal, pixelSize);
   }
@@ -75,12 +75,12 @@ class IrradianceCache {
   /// records themselves still decide where they are used, and the dominant directions stay. So the E that is found is
   /// linear in `light`.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider = 1,
-              std::span<const LightShare> light = {}) const;
+              std::span<const IrradianceExpansion> light = {}) const;
   /// Returns the light of each record where each share is multiplied by its gain. Pre: every record has as many shares.
-  std::vector<LightShare> mixed(std::span<const vec3> gains) const;
+  std::vector<IrradianceExpansion> mixed(std::span<const vec3> gains) const;
   /// Returns the same. The cache keeps it until it is asked for other gains or has more records, because a frame that
   /// is shaded again and again asks for the same. Threads: one at a time.
-  std::span<const LightShare> cachedMix(std::span<const vec3> gains) const;
+  std::span<const IrradianceExpansion> cachedMix(std::span<const vec3> gains) const;
   const IrradianceRecords& records() const;
   const Bound3& bound() const;
 

@@ -4,17 +4,17 @@
 
 namespace tomales {
 
-/// Returns the change of E/pi that the gradients of a record or a share predict, for a step from the record's position
-/// and a turn, the cross product of the record's normal and the other one.
-template <class Light>
-vec3 changeBy(const Light& r, const vec3& step, const vec3& turn) {
+/// Returns the change of E/pi that the gradients predict, for a step from the record's position and a turn, the cross
+/// product of the record's normal and the other one.
+inline vec3 changeBy(const IrradianceExpansion& light, const vec3& step, const vec3& turn) {
   vec3 change;
-  for (int c = 0; c < 3; ++c) change[c] = dot(turn, r.rotationGradient[c]) + dot(step, r.translationGradient[c]);
+  for (int c = 0; c < 3; ++c)
+    change[c] = dot(turn, light.rotationGradient[c]) + dot(step, light.translationGradient[c]);
   return change;
 }
 
 inline vec3 extrapolate(const IrradianceRecord& r, const vec3& x, const vec3& n) {
-  return glm::max(vec3(0.0f), r.E + changeBy(r, x - r.position, cross(r.normal, n)));
+  return glm::max(vec3(0.0f), r.light.E + changeBy(r.light, x - r.position, cross(r.normal, n)));
 }
 
 }  // namespace tomales

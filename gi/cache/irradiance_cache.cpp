@@ -44,7 +44,7 @@ struct IrradianceCache::Impl {
   const Published published = publishedBy(info.equations, settings.kappa);
   Disagreements disagreements{has(Amendment::Disagreements), info.equations, settings.kappa};
   std::vector<vec3> gainsOfMix{};
-  std::vector<LightShare> mix{};
+  std::vector<IrradianceExpansion> mix{};
   const bool correctsMean = has(Amendment::SecondOrder), fadesBehind = has(Amendment::Behind);
 
   bool has(Amendment amendment) const { return isOn(amendment, info); }
@@ -67,9 +67,9 @@ struct IrradianceCache::Impl {
       const float distance = glm::length(fresh.position - old.position),
                   fromOld = Disagreements::noiseAt(old, distance), fromFresh = Disagreements::noiseAt(fresh, distance);
       const Disagreement ofOld =
-          disagreements.of(extrapolate(old, fresh.position, fresh.normal), fresh.E, fromOld + fresh.noise);
+          disagreements.of(extrapolate(old, fresh.position, fresh.normal), fresh.light.E, fromOld + fresh.noise);
       const Disagreement ofFresh =
-          disagreements.of(extrapolate(fresh, old.position, old.normal), old.E, fromFresh + old.noise);
+          disagreements.of(extrapolate(fresh, old.position, old.normal), old.light.E, fromFresh + old.noise);
       old.limit = std::min(old.limit, disagreements.limit(ofOld, distance, old.pixelSize));
       fresh.limit = std::min(fresh.limit, disagreements.limit(ofFresh, distance, fresh.pixelSize));
     }
@@ -133,7 +133,7 @@ struct IrradianceCache::Impl {
 
   /// Lookups that lie close together share one walk through the tree.
   void lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
-              std::span<const LightShare> light, Search& search) const {
+              std::span<const IrradianceExpansion> light, Search& search) const {
     Bound3 region;
     float pixelSize = 0;
     for (const IrradiancePlace& p : places) {
@@ -154,7 +154,7 @@ struct IrradianceCache::Impl {
 
   // Returns the error of the mean of linearly extrapolated records, to the second order, if they agree.
   vec3 secondOrder(const std::vector<Candidate>& candidates, const MeanExtrapolation& mean, float weight,
-                   float pixelSize, std::span<const LightShare> light) const {
+                   float pixelSize, std::span<const IrradianceExpansion> light) const {
     if (!correctsMean) return vec3(0.0f);
     const vec3 step = mean.step();
     vec3 out = -0.5f * mean.covariance();
@@ -162,14 +162,13 @@ struct IrradianceCache::Impl {
       for (const Candidate& c : candidates) {
         const IrradianceRecord& r = records[c.record];
         const float far = reach(size(r), pixelSize);
-        out += 0.5f * c.weight / weight *
-               (light.empty() ? bentBy(r, r, step, far) : bentBy(r, light[c.record], step, far));
+        out += 0.5f * c.weight / weight * bentBy(r, light.empty() ? r.light : light[c.record], step, far);
       }
     return out;
   }
 
   IrradianceEstimate blend(const std::vector<Candidate>& candidates, const vec3& x, const vec3& n, float pixelSize,
-                           std::span<const LightShare> light) const {
+                           std::span<const IrradianceExpansion> light) const {
     IrradianceEstimate out{vec3(0.0f), {vec3(0.0f), vec3(0.0f), vec3(0.0f)}};
     float nearest = kInfinity;
     Disagreement worst = Disagreement::None;
@@ -191,7 +190,7 @@ struct IrradianceCache::Impl {
       out.weight += candidate.weight;
     }
     if (out.weight > 0) {
-      const auto corrected = [&](const vec3& E, const MeanExtrapolation& m, std::span<const LightShare> of) {
+      const auto corrected = [&](const vec3& E, const MeanExtrapolation& m, std::span<const IrradianceExpansion> of) {
         return E / out.weight + mean.agreement() * secondOrder(candidates, m, out.weight, pixelSize, of);
       };
       out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
@@ -213,7 +212,7 @@ IrradianceCache::~IrradianceCache() = default;
 void IrradianceCache::insert(const IrradianceRecord& record) {
   Impl& impl = *impl_;
   impl.records.push_back(record);
-  impl.disagreements.add(luminance(record.E));
+  impl.disagreements.add(luminance(record.light.E));
   if (!(impl.settings.kappa < kInfinity)) return;
   if (impl.has(Amendment::Slopes))
     limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
@@ -223,18 +222,18 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
-  impl_->disagreements.add(luminance(record.E));
+  impl_->disagreements.add(luminance(record.light.E));
   if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,
-                                           float pixelSize, std::span<const LightShare> light) const {
+                                           float pixelSize, std::span<const IrradianceExpansion> light) const {
   if (!(impl_->settings.kappa < kInfinity)) return impl_->blend({}, x, shadingNormal, pixelSize, light);
   return impl_->blend(impl_->candidatesAt(x, normal, pixelSize), x, shadingNormal, pixelSize, light);
 }
 
 void IrradianceCache::lookup(std::span<const IrradiancePlace> places, IrradianceEstimate* out, float wider,
-                             std::span<const LightShare> light) const {
+                             std::span<const IrradianceExpansion> light) const {
   if (places.empty()) return;
   if (!impl_->has(Amendment::Reach)) wider = 1;
   if (impl_->settings.kappa < kInfinity) {
@@ -243,18 +242,18 @@ void IrradianceCache::lookup(std::span<const IrradiancePlace> places, Irradiance
   for (const IrradiancePlace& p : places) *out++ = impl_->blend({}, p.position, p.shadingNormal, p.pixelSize, light);
 }
 
-std::vector<LightShare> IrradianceCache::mixed(std::span<const vec3> gains) const {
-  std::vector<LightShare> out;
+std::vector<IrradianceExpansion> IrradianceCache::mixed(std::span<const vec3> gains) const {
+  std::vector<IrradianceExpansion> out;
   out.reserve(impl_->records.size());
   for (const IrradianceRecord& r : impl_->records) {
-    LightShare& sum = out.emplace_back();
+    IrradianceExpansion& sum = out.emplace_back();
     for (size_t g = 0; g < gains.size(); ++g)
       if (gains[g] != vec3(0.0f)) sum.add(r.shares[g], gains[g]);
   }
   return out;
 }
 
-std::span<const LightShare> IrradianceCache::cachedMix(std::span<const vec3> gains) const {
+std::span<const IrradianceExpansion> IrradianceCache::cachedMix(std::span<const vec3> gains) const {
   Impl& impl = *impl_;
   if (impl.mix.size() != impl.records.size() || !std::ranges::equal(impl.gainsOfMix, gains)) {
     impl.mix = mixed(gains);

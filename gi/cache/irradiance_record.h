@@ -9,15 +9,19 @@
 
 namespace tomales {
 
-/// The part of a record's light that one group of lights brings, by any number of bounces. Its fields are those of the
-/// record, and the fields of all shares add up to those of the record.
-struct LightShare {
-  vec3 E{0.0f};
+/// Irradiance at a record, and its derivatives there. It is the whole light of a record, or the share that one group of
+/// lights brings.
+struct IrradianceExpansion {
+  vec3 E{0.0f};  ///< E/pi per channel
+  /// One for each channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992).
   vec3 rotationGradient[3] = {vec3(0), vec3(0), vec3(0)};
+  /// One for each channel; E(x) ~ E + dot(x - xi, gradient).
   vec3 translationGradient[3] = {vec3(0), vec3(0), vec3(0)};
+  /// Second derivatives of E along the tangent of the record and cross(normal, tangent): xx, xy, yy
+  /// (ErrorFunction::Hessian alone).
   vec3 hessian[3] = {vec3(0), vec3(0), vec3(0)};
 
-  void add(const LightShare& other, const vec3& gain) {
+  void add(const IrradianceExpansion& other, const vec3& gain) {
     E += gain * other.E;
     for (int c = 0; c < 3; ++c) {
       rotationGradient[c] += gain[c] * other.rotationGradient[c];
@@ -29,13 +33,8 @@ struct LightShare {
 
 struct IrradianceRecord {
   vec3 position, normal;  ///< normal is a unit vector without bumps (Tabellion and Lamorlette 2004, section 4.5).
-  vec3 E;                 ///< E/pi per channel
-  /// One for each channel; E(n) ~ E + dot(cross(ni, n), gradient) (Ward and Heckbert 1992).
-  vec3 rotationGradient[3];
-  vec3 translationGradient[3];  ///< One for each channel; E(x) ~ E + dot(x - xi, gradient).
-  vec3 tangent;                 ///< Unit vector; with cross(normal, tangent) it spans the axes of hessian.
-  /// Second derivatives of E along those axes: xx, xy, yy (ErrorFunction::Hessian alone).
-  vec3 hessian[3];
+  IrradianceExpansion light;
+  vec3 tangent;        ///< Unit vector; with cross(normal, tangent) it spans the axes of the Hessians.
   vec3 dominant[3];    ///< Unit directions of the dominant light of red, green and blue (eq. 7).
   float harmonicMean;  ///< Harmonic mean of the distances to the hits; Ward's R.
   float closest;       ///< Least distance to a hit; the paper's R_i.
@@ -43,27 +42,26 @@ struct IrradianceRecord {
   float noise;         ///< Upper bound of the standard error of the luminance of E.
   /// Greatest validity radius: beyond it a neighbour disagrees, or it is the height of an occluder over the record.
   float limit = kInfinity;
-  float pixelSize;                 ///< Root of the projected pixel area at the record, for R+ and R- (eq. 3).
-  float unseenDisplacement = 0;    ///< Greatest distance from the surface that its rays see to the displaced one.
-  std::vector<LightShare> shares;  ///< One for each group of lights that was asked for; empty: not known.
+  float pixelSize;               ///< Root of the projected pixel area at the record, for R+ and R- (eq. 3).
+  float unseenDisplacement = 0;  ///< Greatest distance from the surface that its rays see to the displaced one.
+  /// The light that each group of lights brings, by any number of bounces, if groups were asked for; else empty. The
+  /// shares add up to `light`.
+  std::vector<IrradianceExpansion> shares;
 };
 
 /// Returns the record as it would be if each share were brighter by its gain. Pre: there are as many gains as shares.
 inline IrradianceRecord withGains(IrradianceRecord record, std::span<const vec3> gains) {
-  LightShare sum;
+  IrradianceExpansion sum;
   float most = 1;
   for (size_t g = 0; g < gains.size(); ++g) {
-    LightShare scaled;
+    IrradianceExpansion scaled;
     scaled.add(record.shares[g], gains[g]);
     record.shares[g] = scaled;
     sum.add(scaled, vec3(1.0f));
     most = std::max({most, gains[g].x, gains[g].y, gains[g].z});
   }
-  record.E = sum.E;
+  record.light = sum;
   record.noise *= most;  // the noise is an upper bound
-  std::ranges::copy(sum.rotationGradient, record.rotationGradient);
-  std::ranges::copy(sum.translationGradient, record.translationGradient);
-  std::ranges::copy(sum.hessian, record.hessian);
   return record;
 }
 

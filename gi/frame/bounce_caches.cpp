@@ -36,9 +36,9 @@ void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest;
   record.harmonicMean = first.harmonicMean;
   record.limit = first.limit;
-  std::fill_n(record.rotationGradient, 3, vec3(0));
-  std::fill_n(record.translationGradient, 3, vec3(0));
-  for (LightShare& share : record.shares) share = {.E = share.E};
+  std::ranges::fill(record.light.rotationGradient, vec3(0));
+  std::ranges::fill(record.light.translationGradient, vec3(0));
+  for (IrradianceExpansion& share : record.shares) share = {.E = share.E};
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ IrradianceEstimate BounceCaches::lookup(int bounces, const Camera& camera, const
                                         const vec3& shadingNormal, const std::string* lights) const {
   if (bounces < 1 || levels_.empty()) return {};
   const size_t level = std::min(static_cast<size_t>(bounces), levels_.size()) - 1;
-  std::span<const LightShare> light;
+  std::span<const IrradianceExpansion> light;
   if (lights) {
     const auto group = std::ranges::find(groups_, *lights);
     if (group == groups_.end()) return {};
@@ -81,7 +81,7 @@ void BounceCaches::restore(const Levels& levels) {
 
 // The share of the first group is the light of what shines by itself. It is seen whatever lights are on.
 void BounceCaches::mixLevel() {
-  std::vector<std::vector<LightShare>>& of = alone_.emplace_back();
+  std::vector<std::vector<IrradianceExpansion>>& of = alone_.emplace_back();
   for (size_t g = 0; g < groups_.size(); ++g) {
     std::vector<vec3> gains(groups_.size(), vec3(0));
     gains[0] = gains[g] = vec3(1);
@@ -146,7 +146,7 @@ RecordSlice BounceCaches::recordsAt(const RayTools& tools, const std::vector<Gat
 void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records) {
   for (const IrradianceRecord& r : records) {
     level.insert(r);
-    light_.back() += luminance(r.E);
+    light_.back() += luminance(r.light.E);
   }
 }
 

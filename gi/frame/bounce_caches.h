@@ -56,7 +56,7 @@ class BounceCaches {
   std::vector<IrradianceCache> levels_;  ///< levels_[k] holds the light after k + 1 bounces.
   std::vector<std::string> groups_;
   /// alone_[k][g]: the light of the records of level k with the lights of group g alone.
-  std::vector<std::vector<std::vector<LightShare>>> alone_;
+  std::vector<std::vector<std::vector<IrradianceExpansion>>> alone_;
   std::vector<double> light_;        ///< Sum of the records of each level.
   std::vector<GatherPoint> points_;  ///< The points of the records, the same on all levels.
   BrightSpots spots_;                ///< Some rays of each record are aimed at these.

@@ -243,9 +243,9 @@ PointCloud recordsOf(const IrradianceShot& shot) {
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
       const float data[] = {1,
-                            r.E.x,
-                            r.E.y,
-                            r.E.z,
+                            r.light.E.x,
+                            r.light.E.y,
+                            r.light.E.z,
                             std::min(scale * r.closest, kRiInfinity),
                             std::min(scale * r.harmonicMean, kRiInfinity),
                             r.noise};

@@ -18,15 +18,14 @@ class RecordMove {
     r.normal = turned(r.normal);
     for (vec3& d : r.dominant) d = turned(d);
     r.tangent = turned(r.tangent);
-    moveDerivatives(r);
-    for (LightShare& share : r.shares) moveDerivatives(share);
+    moveDerivatives(r.light);
+    for (IrradianceExpansion& share : r.shares) moveDerivatives(share);
     for (float* length : {&r.harmonicMean, &r.closest, &r.smoothRadius, &r.limit, &r.pixelSize, &r.unseenDisplacement})
       *length *= scale_;
   }
 
  private:
-  template <class Light>
-  void moveDerivatives(Light& light) const {
+  void moveDerivatives(IrradianceExpansion& light) const {
     for (int c = 0; c < 3; ++c) {
       light.rotationGradient[c] = hand_ * turned(light.rotationGradient[c]);
       light.translationGradient[c] = turned(light.translationGradient[c]) / scale_;

@@ -79,8 +79,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
       settings.isOcclusion() ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
   const IrradianceRecord record =
       gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
-  IndirectAnswer answer{record.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
-  for (const LightShare& share : record.shares) answer.shares.push_back(share.E);
+  IndirectAnswer answer{record.light.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
+  for (const IrradianceExpansion& share : record.shares) answer.shares.push_back(share.E);
   if (answers && answers->recording) answers->indirect[name] = answer;
   return mixed(answer, state.gainsOfNew);
 }

@@ -6,15 +6,16 @@
 namespace tomales {
 
 template <class A>
-void fields(A& a, LightShare& x) {
+void fields(A& a, IrradianceExpansion& x) {
   auto& [E, rotation, translation, hessian] = x;
   each(a, E, rotation, translation, hessian);
 }
 
 template <class A>
 void fields(A& a, IrradianceRecord& x) {
-  auto& [position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
-         noise, limit, pixelSize, unseenDisplacement, shares] = x;
+  auto& [position, normal, light, tangent, dominant, harmonicMean, closest, smoothRadius, noise, limit, pixelSize,
+         unseenDisplacement, shares] = x;
+  auto& [E, rotation, translation, hessian] = light;
   each(a, position, normal, E, rotation, translation, tangent, hessian, dominant, harmonicMean, closest, smoothRadius,
        noise, limit, pixelSize, unseenDisplacement, shares);
 }

@@ -14,7 +14,8 @@ namespace {
 constexpr float kServesWider = 1.25f;
 
 /// Returns the light of the records under the gains, or drawn anew; empty if that is their own.
-std::span<const LightShare> lightOf(const GiState& state, const PreparedCache& prepared, const ShadeContext& context) {
+std::span<const IrradianceExpansion> lightOf(const GiState& state, const PreparedCache& prepared,
+                                             const ShadeContext& context) {
   const auto index = static_cast<size_t>(&prepared - state.caches.data());
   if (context.redrawn && !state.redrawn.empty()) return state.redrawn[index];
   return mixedLight(state, index);
@@ -38,29 +39,23 @@ vec3 causticOverPi(const GiState& state, int group, const vec3& P, const vec3& n
   return state.atlas ? state.atlas->causticOverPi(group, P, n, 0.5f * pixelSize) : vec3(0.0f);
 }
 
-std::span<const LightShare> mixedLight(const GiState& state, size_t cache) {
+std::span<const IrradianceExpansion> mixedLight(const GiState& state, size_t cache) {
   if (!state.mixed) return {};
   std::call_once(state.mixed->once, [&] {
     for (const PreparedCache& c : state.caches)
-      state.mixed->ofCaches.push_back(c.key.gather.isOcclusion() ? std::span<const LightShare>()
+      state.mixed->ofCaches.push_back(c.key.gather.isOcclusion() ? std::span<const IrradianceExpansion>()
                                                                  : c.cache.cachedMix(state.gains));
   });
   return state.mixed->ofCaches[cache];
 }
 
-std::vector<LightShare> redrawn(const IrradianceCache& cache, std::span<const LightShare> mixed) {
-  std::vector<LightShare> out(mixed.begin(), mixed.end());
+std::vector<IrradianceExpansion> redrawn(const IrradianceCache& cache, std::span<const IrradianceExpansion> mixed) {
+  std::vector<IrradianceExpansion> out(mixed.begin(), mixed.end());
   const IrradianceRecords& records = cache.records();
   for (size_t i = 0; i < records.size(); ++i) {
     const IrradianceRecord& r = records[i];
-    if (mixed.empty()) {
-      LightShare& own = out.emplace_back();
-      own.E = r.E;
-      std::ranges::copy(r.rotationGradient, own.rotationGradient);
-      std::ranges::copy(r.translationGradient, own.translationGradient);
-      std::ranges::copy(r.hessian, own.hessian);
-    }
-    const float light = luminance(r.E);
+    if (mixed.empty()) out.push_back(r.light);
+    const float light = luminance(r.light.E);
     if (light > 0) out[i].E *= 1 + std::sqrt(2.0f) * normalDraw(r.position) * r.noise / light;
   }
   return out;

@@ -19,12 +19,12 @@ BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPl
 BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
 
 /// Returns the light of a cache's records under the gains; empty if that is their own.
-std::span<const LightShare> mixedLight(const GiState&, size_t cache);
+std::span<const IrradianceExpansion> mixedLight(const GiState&, size_t cache);
 
 /// Returns the light of a cache's records as it would be with other random numbers. Each record is made brighter or
 /// darker by a draw of its noise, times the root of 2: so much do two independent pictures differ. mixed: mixedLight()
 /// of the cache.
-std::vector<LightShare> redrawn(const IrradianceCache&, std::span<const LightShare> mixed);
+std::vector<IrradianceExpansion> redrawn(const IrradianceCache&, std::span<const IrradianceExpansion> mixed);
 
 /// Returns E/pi of light that came by mirrors and glass, which gather rays do not find. n: unit normal.
 vec3 causticOverPi(const GiState&, int group, const vec3& P, const vec3& n, float pixelSize);

@@ -11,7 +11,8 @@ namespace tomales {
 /// The light of caches under the gains of groups, made when it is first asked for.
 struct MixedLight {
   std::once_flag once;
-  std::vector<std::span<const LightShare>> ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::cachedMix).
+  std::vector<std::span<const IrradianceExpansion>>
+      ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::cachedMix).
 };
 
 struct GiState {
@@ -46,7 +47,7 @@ struct GiState {
   /// Call this when the gains or the records have changed.
   void mixAnew() { mixed = gains.empty() ? nullptr : std::make_unique<MixedLight>(); }
   /// Light of the records, indexed as `caches`, with another draw of each record's noise; empty before redrawRecords().
-  std::vector<std::vector<LightShare>> redrawn{};
+  std::vector<std::vector<IrradianceExpansion>> redrawn{};
 };
 
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.

@@ -244,20 +244,19 @@ class Hemisphere {
 /// Returns the radius over which the light may be off by `maxError` times the tolerance. The radius of the Hessian
 /// grows by the fourth root of that. The cache multiplies all radii by `maxError` later, which is divided out here.
 float radiusByHessian(const IrradianceCurvature& curvature, const IrradianceRecord& r, float maxError) {
-  return hessianRadius(curvature, luminance(r.E), r.pixelSize, kHessianTolerance * maxError) / maxError;
+  return hessianRadius(curvature, luminance(r.light.E), r.pixelSize, kHessianTolerance * maxError) / maxError;
+}
+
+void setHessian(const IrradianceCurvature& curvature, IrradianceExpansion& light) {
+  light.hessian[0] = curvature.xx;
+  light.hessian[1] = curvature.xy;
+  light.hessian[2] = curvature.yy;
 }
 
 /// `seen`: the hemisphere, with the radiance that the lights of the share bring.
-LightShare shareOf(const HemisphereSamples& seen, bool curved) {
-  const IrradianceRecord record = summarize(seen);
-  LightShare out{.E = record.E};
-  std::ranges::copy(record.rotationGradient, out.rotationGradient);
-  std::ranges::copy(record.translationGradient, out.translationGradient);
-  if (!curved) return out;
-  const IrradianceCurvature curvature = curvatureOf(seen);
-  out.hessian[0] = curvature.xx;
-  out.hessian[1] = curvature.xy;
-  out.hessian[2] = curvature.yy;
+IrradianceExpansion shareOf(const HemisphereSamples& seen, bool curved) {
+  IrradianceExpansion out = summarize(seen).light;
+  if (curved) setHessian(curvatureOf(seen), out);
   return out;
 }
 
@@ -281,9 +280,7 @@ IrradianceRecord gather(const RayScene& scene, const ShadingSystem& shading, con
   if (settings.curvature) {
     const IrradianceCurvature curvature = curvatureOf(samples);
     record.tangent = samples.tangent;
-    record.hessian[0] = curvature.xx;
-    record.hessian[1] = curvature.xy;
-    record.hessian[2] = curvature.yy;
+    setHessian(curvature, record.light);
     // Light changes faster near an occluder, so the curvature at the record holds for half of the distance at best.
     if (settings.isOcclusion())
       record.smoothRadius = std::min(variationRadius(curvature, settings.asked->maxVariation), 0.5f * record.closest);

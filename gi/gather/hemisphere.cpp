@@ -110,19 +110,19 @@ IrradianceRecord summarize(const HemisphereSamples& s) {
   record.closest = kInfinity;
   float inverseDistances = 0;
   for (size_t i = 0; i < s.directions.size(); ++i) {
-    record.E += s.radiance[i];
+    record.light.E += s.radiance[i];
     for (int c = 0; c < 3; ++c) record.dominant[c] += s.directions[i] * s.radiance[i][c];
     record.closest = std::min(record.closest, s.distances[i]);
     inverseDistances += 1 / std::max(s.distances[i], 1e-9f);
   }
   const float count = static_cast<float>(s.directions.size());
-  record.E /= count;
+  record.light.E /= count;
   record.noise = noiseOf(s);
   record.harmonicMean = inverseDistances > 0 ? count / inverseDistances : kInfinity;
   for (vec3& d : record.dominant) d = normalizeOr(d, s.normal);
   const Gradients gradients(s);
-  gradients.rotation(record.rotationGradient);
-  gradients.translation(record.translationGradient);
+  gradients.rotation(record.light.rotationGradient);
+  gradients.translation(record.light.translationGradient);
   return record;
 }
 

@@ -11,8 +11,8 @@ namespace tomales {
 /// where there is no light.
 inline float steepnessOf(const IrradianceRecord& r) {
   constexpr float kSteep = 0.3f;  // more lets the dark side of edges get light
-  const vec3 slope = r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2];
-  const float most = kSteep * (r.E.x + r.E.y + r.E.z);
+  const vec3 slope = r.light.translationGradient[0] + r.light.translationGradient[1] + r.light.translationGradient[2];
+  const float most = kSteep * (r.light.E.x + r.light.E.y + r.light.E.z);
   return most > 0 ? glm::length(slope) / most : kInfinity;
 }
 

@@ -9,8 +9,7 @@ namespace tomales {
 
 /// Returns step^T H step of each channel. H is that of the record or of a share. It is not known beyond `reach`, so a
 /// longer step, such as the mean step of records that are valid farther, is shortened to it.
-template <class Light>
-vec3 bentBy(const IrradianceRecord& r, const Light& light, const vec3& step, float reach) {
+inline vec3 bentBy(const IrradianceRecord& r, const IrradianceExpansion& light, const vec3& step, float reach) {
   const vec3 known = step * std::min(1.0f, reach / std::max(glm::length(step), 1e-30f));
   const float a = dot(known, r.tangent), b = dot(known, cross(r.normal, r.tangent));
   return a * a * light.hessian[0] + 2 * a * b * light.hessian[1] + b * b * light.hessian[2];
@@ -28,14 +27,14 @@ class MeanExtrapolation {
 
   /// Adds extrapolate() of the record with this weight, and returns it.
   vec3 add(const IrradianceRecord& r, float weight) {
-    const vec3 E = glm::max(vec3(0.0f), r.E + addLight(r, r, weight));
+    const vec3 E = glm::max(vec3(0.0f), r.light.E + addLight(r, r.light, weight));
     E_ += weight * E;
     square_ += weight * E * E;
     return E;
   }
   /// Does the same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is
   /// what another mean's add() returned), so that shares add up to it. Do not ask for agreement() then.
-  vec3 addShare(const IrradianceRecord& r, const LightShare& share, float weight, const vec3& whole) {
+  vec3 addShare(const IrradianceRecord& r, const IrradianceExpansion& share, float weight, const vec3& whole) {
     const vec3 E = share.E + addLight(r, share, weight);
     return vec3(glm::greaterThan(whole, vec3(0.0f))) * E;
   }
@@ -55,8 +54,7 @@ class MeanExtrapolation {
   }
 
  private:
-  template <class Light>
-  vec3 addLight(const IrradianceRecord& r, const Light& light, float weight) {
+  vec3 addLight(const IrradianceRecord& r, const IrradianceExpansion& light, float weight) {
     const vec3 turn = cross(r.normal, n_), step = x_ - r.position, change = changeBy(light, step, turn);
     weight_ += weight;
     step_ += weight * step;

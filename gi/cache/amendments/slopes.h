@@ -10,18 +10,18 @@ namespace tomales {
 inline void limitDerivatives(IrradianceRecord& r, float radius) {
   const auto scale = [](vec3& v, float numerator, float by) { v = by < kInfinity ? v * (numerator / by) : vec3(0.0f); };
   for (int c = 0; c < 3; ++c) {
-    vec3& gradient = r.translationGradient[c];
+    vec3& gradient = r.light.translationGradient[c];
     const float change = glm::length(gradient) * radius;
-    if (!(change <= r.E[c])) {
-      scale(gradient, r.E[c], change);
-      for (LightShare& share : r.shares) scale(share.translationGradient[c], r.E[c], change);
+    if (!(change <= r.light.E[c])) {
+      scale(gradient, r.light.E[c], change);
+      for (IrradianceExpansion& share : r.shares) scale(share.translationGradient[c], r.light.E[c], change);
     }
-    const float xx = r.hessian[0][c], xy = r.hessian[1][c], yy = r.hessian[2][c];
+    const float xx = r.light.hessian[0][c], xy = r.light.hessian[1][c], yy = r.light.hessian[2][c];
     const float bend = 0.5f * radius * radius * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
-    if (bend <= r.E[c]) continue;
-    const auto shorten = [&](float& second) { second = bend < kInfinity ? second * r.E[c] / bend : 0.0f; };
-    for (vec3& second : r.hessian) shorten(second[c]);
-    for (LightShare& share : r.shares)
+    if (bend <= r.light.E[c]) continue;
+    const auto shorten = [&](float& second) { second = bend < kInfinity ? second * r.light.E[c] / bend : 0.0f; };
+    for (vec3& second : r.light.hessian) shorten(second[c]);
+    for (IrradianceExpansion& share : r.shares)
       for (vec3& second : share.hessian) shorten(second[c]);
   }
 }

@@ -120,7 +120,8 @@ Json icfInfo(const std::string& file, Log& log) {
   Json caches = Json::array();
   for (const PreparedCache& c : icf->shot().caches) {
     vec3 mean(0.0f);
-    for (const IrradianceRecord& r : c.cache.records()) mean += r.E / static_cast<float>(c.cache.records().size());
+    for (const IrradianceRecord& r : c.cache.records())
+      mean += r.light.E / static_cast<float>(c.cache.records().size());
     caches.push_back({{"records", c.cache.records().size()},
                       {"frames", c.frames.size()},
                       {"error_function", infoOf(c.key.cache.errorFunction).name},

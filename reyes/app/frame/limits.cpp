@@ -64,12 +64,12 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     if (records.size() < kFewRecords) continue;
     double sum = 0, noise = 0;
     for (const IrradianceRecord& r : records) {
-      sum += luminance(r.E);
+      sum += luminance(r.light.E);
       noise += r.noise;
     }
     const float dark = kDark * static_cast<float>(sum / static_cast<double>(records.size()));
     const auto uncertain = std::count_if(records.begin(), records.end(), [&](const IrradianceRecord& r) {
-      return r.noise > kUncertain * std::max(luminance(r.E), dark);
+      return r.noise > kUncertain * std::max(luminance(r.light.E), dark);
     });
     const float share = static_cast<float>(uncertain) / static_cast<float>(records.size());
     if (share > kShareOfRecords)

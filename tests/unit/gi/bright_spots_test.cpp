@@ -105,7 +105,7 @@ TEST(Gather, SpotsBehindAScreenTakeNoRaysFromWhatCanBeSeen) {
       settings.samples = 512;
       const double E = luminance(gather(world.rays, world.shading, {0, {0, -1, 1.5f}, {0, 1, 0}, i, 0.01f, 0.01f},
                                         settings, {&spots}, world.stats)
-                                     .E);
+                                     .light.E);
       sum += E;
       squares += E * E;
     }
@@ -161,7 +161,7 @@ TEST(Gather, LargeSpotsThatAreMostlyHiddenAreAimedAtWhereTheyAreNot) {
       settings.samples = 8000;
       GatherPoint point = kBelow;
       point.key = i;
-      const double E = luminance(gather(world.rays, world.shading, point, settings, {&known}, world.stats).E);
+      const double E = luminance(gather(world.rays, world.shading, point, settings, {&known}, world.stats).light.E);
       sum += E / kCount;
       squares += E * E / kCount;
     }
@@ -239,7 +239,7 @@ TEST(Gather, RaysAimedAtABrightSpotKeepTheMeanAndTakeTheNoise) {
     for (int i = 0; i < count; ++i) {
       GatherPoint point = from;
       point.key = static_cast<uint32_t>(i);
-      const double E = luminance(gather(world.rays, world.shading, point, settings, {&aimedAt}, world.stats).E);
+      const double E = luminance(gather(world.rays, world.shading, point, settings, {&aimedAt}, world.stats).light.E);
       sum += E;
       squares += E * E;
     }

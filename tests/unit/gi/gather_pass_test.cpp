@@ -75,7 +75,7 @@ TEST(GatherPass, ObjectsWhoseRaysSeeDifferentSubsetsShareNoRecords) {
   int dark = 0;
   for (const PreparedCache& c : services->caches())
     dark += !c.cache.records().empty() && std::all_of(c.cache.records().begin(), c.cache.records().end(),
-                                                      [](const IrradianceRecord& r) { return r.E == vec3(0); });
+                                                      [](const IrradianceRecord& r) { return r.light.E == vec3(0); });
   EXPECT_EQ(dark, 1);
 }
 
@@ -135,7 +135,7 @@ std::vector<double> recordsUnderAFarCeiling(float samples, uint32_t seed = 0) {
   const auto services = world.use(settings);
   gatherFrame(*services, frameOf(world, 64));
   std::vector<double> E;
-  for (const IrradianceRecord& r : services->caches().at(0).cache.records()) E.push_back(double{luminance(r.E)});
+  for (const IrradianceRecord& r : services->caches().at(0).cache.records()) E.push_back(double{luminance(r.light.E)});
   std::sort(E.begin(), E.end());
   return E;
 }

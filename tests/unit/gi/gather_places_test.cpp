@@ -80,7 +80,7 @@ TEST(GatherPlaces, ABladeHasTheLightOfItsRoot) {
         const IrradianceRecord truth =
             gather(world.rays, world.shading, {batch.group(), root, {0, 1, 0}, 5, 0.01f, 0.01f}, {.samples = 20000}, {},
                    world.stats);
-        EXPECT_NEAR(luminance(E[static_cast<size_t>(i)]) / luminance(truth.E), 1, 0.06f) << batch.position(i).y;
+        EXPECT_NEAR(luminance(E[static_cast<size_t>(i)]) / luminance(truth.light.E), 1, 0.06f) << batch.position(i).y;
         EXPECT_EQ(E[static_cast<size_t>(i)], E.front()) << "all of a blade alike";
         if (++seen > 20) return;
       }

@@ -112,10 +112,10 @@ TEST(Hemisphere, EveryCellHoldsExactlyOneUnitDirection) {
 
 TEST(Hemisphere, UniformRadianceGivesExactlyItself) {
   const auto r = look([](const vec3&, const vec3&) { return Seen{{1, 2, 0.5f}, kInfinity}; }, vec3(0), kPole, 600);
-  EXPECT_EQ(r.E, vec3(1, 2, 0.5f));
+  EXPECT_EQ(r.light.E, vec3(1, 2, 0.5f));
   for (int c = 0; c < 3; ++c) {
-    EXPECT_LT(glm::length(r.rotationGradient[c]), 1e-5f);
-    EXPECT_EQ(r.translationGradient[c], vec3(0));
+    EXPECT_LT(glm::length(r.light.rotationGradient[c]), 1e-5f);
+    EXPECT_EQ(r.light.translationGradient[c], vec3(0));
     EXPECT_NEAR(r.dominant[c].z, 1, 1e-3f);
   }
   EXPECT_EQ(r.closest, kInfinity);
@@ -125,7 +125,7 @@ TEST(Hemisphere, UniformRadianceGivesExactlyItself) {
 TEST(Hemisphere, IrradianceOfACosineLobeIsTwoThirds) {
   const vec3 n = glm::normalize(vec3(1, -2, 0.5f));
   const auto r = look([&](const vec3&, const vec3& d) { return Seen{vec3(dot(d, n)), 1}; }, vec3(0), n, 2000);
-  EXPECT_NEAR(r.E.x, 2.0f / 3, 1e-3f);
+  EXPECT_NEAR(r.light.E.x, 2.0f / 3, 1e-3f);
 }
 
 TEST(Hemisphere, HalfADarkHemisphereGivesOneHalf) {
@@ -134,7 +134,7 @@ TEST(Hemisphere, HalfADarkHemisphereGivesOneHalf) {
         return Seen{vec3(d.x > 0 ? 1.0f : 0.0f), 1};
       },
       vec3(0), kPole, 2000);
-  EXPECT_NEAR(r.E.x, 0.5f, 0.01f);
+  EXPECT_NEAR(r.light.E.x, 0.5f, 0.01f);
   EXPECT_NEAR(r.dominant[0].x, r.dominant[0].z / kPi * 2,
               0.02f);  // mean of x against mean of z: 4/(3 pi) to 2/3
 }
@@ -173,7 +173,7 @@ TEST(Hemisphere, RotationGradientIsExactForALinearField) {
   for (const vec3& axis : {vec3(1, 0, 0), vec3(0, 1, 0)}) {
     const vec3 turned = glm::normalize(n + 0.01f * axis);
     const float change = 2.0f / 3 * dot(a, turned - n);
-    EXPECT_NEAR(dot(cross(n, turned), r.rotationGradient[0]), change, 0.05f * std::abs(change));
+    EXPECT_NEAR(dot(cross(n, turned), r.light.rotationGradient[0]), change, 0.05f * std::abs(change));
   }
 }
 
@@ -182,7 +182,7 @@ TEST(Hemisphere, RotationGradientMatchesFiniteDifferences) {
     const auto r = look(world, vec3(0), kPole, 4000);
     const vec3 turned = glm::normalize(vec3(0.02f, 0, 1)), back = glm::normalize(vec3(-0.02f, 0, 1));
     const double slope = exactE(world, vec3(0), turned) - exactE(world, vec3(0), back);
-    EXPECT_NEAR(dot(cross(back, turned), r.rotationGradient[0]), slope, 0.03 * std::abs(slope));
+    EXPECT_NEAR(dot(cross(back, turned), r.light.rotationGradient[0]), slope, 0.03 * std::abs(slope));
   }
 }
 
@@ -191,7 +191,7 @@ TEST(Hemisphere, TranslationGradientMatchesFiniteDifferences) {
     vec3 mean(0);
     constexpr int kRecords = 16;
     for (uint32_t seed = 0; seed < kRecords; ++seed)
-      mean += look(world, vec3(0), kPole, 4000, seed).translationGradient[0] / static_cast<float>(kRecords);
+      mean += look(world, vec3(0), kPole, 4000, seed).light.translationGradient[0] / static_cast<float>(kRecords);
     const double slope = (exactE(world, {0.05f, 0, 0}, kPole) - exactE(world, {-0.05f, 0, 0}, kPole)) / 0.1;
     EXPECT_NEAR(mean.x, slope, 0.05 * std::abs(slope));
     EXPECT_NEAR(mean.y, 0, 0.05 * std::abs(slope));
@@ -204,10 +204,10 @@ TEST(Hemisphere, GradientsTurnWithTheFrame) {
   const mat3 turn{vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0)};
   const SeenFrom turned = [&](const vec3&, const vec3& d) { return smoothCeiling(vec3(0), glm::transpose(turn) * d); };
   const auto a = look(smoothCeiling, vec3(0), kPole, 8000), b = look(turned, vec3(0), turn * kPole, 8000);
-  const vec3 back = glm::transpose(turn) * b.translationGradient[0];
-  EXPECT_LT(glm::length(back - a.translationGradient[0]), 0.1f * glm::length(a.translationGradient[0]));
-  EXPECT_LT(glm::length(glm::transpose(turn) * b.rotationGradient[0] - a.rotationGradient[0]),
-            0.03f * glm::length(a.rotationGradient[0]));
+  const vec3 back = glm::transpose(turn) * b.light.translationGradient[0];
+  EXPECT_LT(glm::length(back - a.light.translationGradient[0]), 0.1f * glm::length(a.light.translationGradient[0]));
+  EXPECT_LT(glm::length(glm::transpose(turn) * b.light.rotationGradient[0] - a.light.rotationGradient[0]),
+            0.03f * glm::length(a.light.rotationGradient[0]));
 }
 
 // Second differences of the exact E/pi.

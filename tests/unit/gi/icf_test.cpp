@@ -16,11 +16,11 @@ TEST(Records, SayTheSameToEveryCamera) {
   for (const ErrorFunction function : {ErrorFunction::Screen, ErrorFunction::Ward, ErrorFunction::Hessian}) {
     IrradianceRecord r{};
     r.normal = {0, 0, 1};
-    r.E = {1, 2, 3};
+    r.light.E = {1, 2, 3};
     r.tangent = normalizeOr(vec3(2, 1, 0), vec3(0));
-    r.hessian[0] = vec3(5);
-    r.hessian[1] = vec3(-9);
-    r.hessian[2] = vec3(4);
+    r.light.hessian[0] = vec3(5);
+    r.light.hessian[1] = vec3(-9);
+    r.light.hessian[2] = vec3(4);
     r.harmonicMean = 2;
     r.closest = 0.3f;
     r.smoothRadius = 0.2f;
@@ -28,8 +28,8 @@ TEST(Records, SayTheSameToEveryCamera) {
     r.pixelSize = 0.02f;
     for (int c = 0; c < 3; ++c) {
       r.dominant[c] = normalizeOr(vec3(c, 1, 2), vec3(0));
-      r.rotationGradient[c] = {0.3f, -0.2f, 0.1f};
-      r.translationGradient[c] = {0.4f, 0.5f, 0};
+      r.light.rotationGradient[c] = {0.3f, -0.2f, 0.1f};
+      r.light.translationGradient[c] = {0.4f, 0.5f, 0};
     }
     const auto ask = [&](const mat4& m, float scale) {
       IrradianceShot shot;

@@ -16,7 +16,7 @@ IrradianceRecord recordAt(const vec3& position, const vec3& E, float closest = 1
   IrradianceRecord r{};
   r.position = position;
   r.normal = kUp;
-  r.E = E;
+  r.light.E = E;
   for (vec3& d : r.dominant) d = kUp;
   r.harmonicMean = r.closest = closest;
   r.pixelSize = pixelSize;
@@ -164,7 +164,7 @@ TEST(IrradianceCache, ALinearFieldWithExactGradientsIsReproduced) {
   for (uint32_t i = 0; i < 200; ++i) {
     const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
     auto record = recordAt(p, vec3(field(p)), 1, 0.03f);
-    for (vec3& g : record.translationGradient) g = slope;
+    for (vec3& g : record.light.translationGradient) g = slope;
     cache.insert(record);
   }
   for (uint32_t i = 0; i < 100; ++i) {
@@ -178,7 +178,7 @@ TEST(IrradianceCache, ALinearFieldWithExactGradientsIsReproduced) {
 
 TEST(IrradianceCache, TheRotationGradientTurnsWithTheNormal) {
   auto record = recordAt(vec3(0), vec3(1));
-  record.rotationGradient[0] = {0, 0.5f, 0};
+  record.light.rotationGradient[0] = {0, 0.5f, 0};
   IrradianceCache cache(kBox, {});
   cache.insert(record);
   const vec3 n = tilted(5);
@@ -188,8 +188,8 @@ TEST(IrradianceCache, TheRotationGradientTurnsWithTheNormal) {
 
 TEST(IrradianceCache, NoGradientMakesLightNegativeOrMoreThanDoublesIt) {
   auto record = recordAt(vec3(0), {1, 0, 1}, 1, 0.01f);
-  for (vec3& g : record.translationGradient) g = {1e6f, 0, 0};
-  record.translationGradient[2] = {kInfinity, 0, 0};
+  for (vec3& g : record.light.translationGradient) g = {1e6f, 0, 0};
+  record.light.translationGradient[2] = {kInfinity, 0, 0};
   IrradianceCache cache(kBox, {});
   cache.insert(record);
   for (float x = -0.09f; x < 0.1f; x += 0.01f) {
@@ -271,7 +271,7 @@ TEST(IrradianceCache, RecordsServeWiderThanTheyCoverButNotBeyondDisagreementsNor
   for (const float change : {0.0f, 0.15f, 0.31f}) {  // over its reach
     IrradianceCache alone(kBox, {});
     IrradianceRecord record = recordAt(vec3(0), vec3(1));
-    for (vec3& gradient : record.translationGradient) gradient = {10 * change, 0, 0};
+    for (vec3& gradient : record.light.translationGradient) gradient = {10 * change, 0, 0};
     alone.insert(record);
     EXPECT_EQ(alone.lookup({0.1001f, 0, 0}, kUp, 0.01f).weight, 0);
     const float reach = 0.1f * (change > 0.3f ? 1 : change > 0 ? 1 + 0.25f * 0.75f : 1.25f);
@@ -345,13 +345,13 @@ TEST(IrradianceCache, AQuadraticFieldIsReproducedByRecordsThatKnowTheirSecondDer
   for (uint32_t i = 0; i < 200; ++i) {
     const vec3 p = randomIn(i, 4) * vec3(1, 1, 0);
     auto record = recordAt(p, vec3(field(p)), 1, 0.01f);
-    for (vec3& g : record.translationGradient) g = {0.3f + 1.6f * p.x - 0.6f * p.y, 0.8f * p.y - 0.6f * p.x, 0};
+    for (vec3& g : record.light.translationGradient) g = {0.3f + 1.6f * p.x - 0.6f * p.y, 0.8f * p.y - 0.6f * p.x, 0};
     record.smoothRadius = 0.3f;
     record.tangent = normalizeOr(vec3(1, 2, 0), vec3(0));
     // This is the Hessian of 0.8 xx - 0.6 xy + 0.4 yy, whose axes are (1, 2) and (-2, 1).
-    record.hessian[0] = vec3(0.48f);
-    record.hessian[1] = vec3(0.04f);
-    record.hessian[2] = vec3(1.92f);
+    record.light.hessian[0] = vec3(0.48f);
+    record.light.hessian[1] = vec3(0.04f);
+    record.light.hessian[2] = vec3(1.92f);
     cache.insert(record);
   }
   for (uint32_t i = 0; i < 100; ++i) {
@@ -366,7 +366,7 @@ TEST(IrradianceCache, AmongRecordsOnAllSidesGradientsAloneSayHowLightBends) {
     IrradianceCache cache(kBox, {function, 1, 40});
     for (const vec3& p : {vec3(0.1f, 0, 0), vec3(-0.1f, 0, 0)}) {
       auto record = recordAt(p, vec3(1 + 4 * p.x * p.x));
-      for (vec3& g : record.translationGradient) g = {8 * p.x, 0, 0};
+      for (vec3& g : record.light.translationGradient) g = {8 * p.x, 0, 0};
       record.smoothRadius = 0.3f;
       cache.insert(record);
     }
@@ -381,7 +381,7 @@ TEST(IrradianceCache, ASecondDerivativeHoldsAsFarAsItsRecordReaches) {
     auto r = recordAt({edge ? -0.015f : -0.25f, 0, 0}, vec3(1));
     r.smoothRadius = edge ? 0.02f : 0.3f;
     r.tangent = {1, 0, 0};
-    r.hessian[0] = vec3(edge ? -200.0f : 0.0f);
+    r.light.hessian[0] = vec3(edge ? -200.0f : 0.0f);
     cache.insert(r);
   }
   EXPECT_NEAR(cache.lookup(vec3(0), kUp, 0.01f).E.x, 1, 0.05f);
@@ -396,8 +396,8 @@ TEST(IrradianceCache, BeyondAShadowsEdgeBendingLightsNoDark) {
       IrradianceRecord r = recordAt({x, 0, 0}, vec3(light(x)), 9);
       r.smoothRadius = 0.1f;
       r.tangent = {1, 0, 0};
-      for (int c = 0; c < 3; ++c) r.translationGradient[c].x = x > 0 ? 2 * x : 0;
-      r.hessian[0] = vec3(x > 0 ? 2.0f : 0.0f);
+      for (int c = 0; c < 3; ++c) r.light.translationGradient[c].x = x > 0 ? 2 * x : 0;
+      r.light.hessian[0] = vec3(x > 0 ? 2.0f : 0.0f);
       cache.insert(r);
     }
     for (const float x : {-0.04f, -0.02f, 0.0f}) {
@@ -412,7 +412,7 @@ TEST(IrradianceCache, NoSecondDerivativeMakesLightNegativeOrMoreThanDoublesIt) {
     auto record = recordAt(vec3(0), vec3(1));
     record.smoothRadius = 0.3f;
     record.tangent = {1, 0, 0};
-    record.hessian[0] = vec3(bend);
+    record.light.hessian[0] = vec3(bend);
     IrradianceCache cache(kBox, {ErrorFunction::Hessian, 1, 40});
     cache.insert(record);
     const float E = cache.lookup({0.25f, 0, 0}, kUp, 0.01f).E.x;
@@ -439,7 +439,7 @@ TEST(IrradianceCache, TheSplitSphereAsPublishedKnowsNoPixelsAndNoDisagreements) 
 TEST(IrradianceCache, PlainIsScreenAsPublished) {
   const auto bent = [](float x) {
     IrradianceRecord r = recordAt({x, 0, 0}, vec3(1 + 40 * x * x), 9);
-    for (vec3& g : r.translationGradient) g = {80 * x, 0, 0};
+    for (vec3& g : r.light.translationGradient) g = {80 * x, 0, 0};
     return r;
   };
   IrradianceCache screen(kBox, {}), plain(kBox, {ErrorFunction::Plain});

@@ -15,8 +15,8 @@ vec3 someVector(uint32_t i, uint32_t salt) {
   return {unitFloat(hashCombine(i, salt, 0)), unitFloat(hashCombine(i, salt, 1)), unitFloat(hashCombine(i, salt, 2))};
 }
 
-LightShare someShare(uint32_t name) {
-  LightShare share{.E = someVector(name, 0)};
+IrradianceExpansion someShare(uint32_t name) {
+  IrradianceExpansion share{.E = someVector(name, 0)};
   for (uint32_t c = 0; c < 3; ++c) {
     share.rotationGradient[c] = someVector(name, 1 + c) - 0.5f;
     share.translationGradient[c] = 9.0f * (someVector(name, 4 + c) - 0.5f);
@@ -39,15 +39,12 @@ IrradianceCache plane(ErrorFunction function) {
     r.smoothRadius = 0.4f;
     r.pixelSize = 0.02f;
     r.noise = 0.3f;
-    LightShare all;
+    IrradianceExpansion all;
     for (uint32_t g = 0; g < 3; ++g) {
       r.shares.push_back(someShare(3 * i + g));
       all.add(r.shares.back(), vec3(1));
     }
-    r.E = all.E;
-    std::copy_n(all.rotationGradient, 3, r.rotationGradient);
-    std::copy_n(all.translationGradient, 3, r.translationGradient);
-    std::copy_n(all.hessian, 3, r.hessian);
+    r.light = all;
     cache.insert(r);
   }
   return cache;
@@ -69,7 +66,8 @@ TEST_P(Shares, AddUpToTheWholeAndFollowGains) {
   const std::vector<IrradiancePlace> at = places();
   const auto ask = [&](const std::vector<vec3>& gains) {
     std::vector<IrradianceEstimate> out(at.size());
-    const std::vector<LightShare> light = gains.empty() ? std::vector<LightShare>() : cache.mixed(gains);
+    const std::vector<IrradianceExpansion> light =
+        gains.empty() ? std::vector<IrradianceExpansion>() : cache.mixed(gains);
     cache.lookup(at, out.data(), 1.25f, light);
     return out;
   };
@@ -93,12 +91,12 @@ TEST(CachedMix, IsThatOfTheGainsAskedForAndOfEveryRecord) {
   IrradianceCache cache = plane(ErrorFunction::Screen);
   const std::vector<vec3> second{vec3(0), vec3(1), vec3(0)}, red{vec3(1), vec3(2, 0, 0.5f), vec3(1)};
   const auto isMixed = [&](const std::vector<vec3>& gains) {
-    const std::vector<LightShare> fresh = cache.mixed(gains);
-    const std::span<const LightShare> kept = cache.cachedMix(gains);
-    return std::ranges::equal(kept, fresh, {}, &LightShare::E, &LightShare::E);
+    const std::vector<IrradianceExpansion> fresh = cache.mixed(gains);
+    const std::span<const IrradianceExpansion> kept = cache.cachedMix(gains);
+    return std::ranges::equal(kept, fresh, {}, &IrradianceExpansion::E, &IrradianceExpansion::E);
   };
   EXPECT_TRUE(isMixed(second));
-  const LightShare* place = cache.cachedMix(second).data();
+  const IrradianceExpansion* place = cache.cachedMix(second).data();
   EXPECT_EQ(cache.cachedMix(second).data(), place);
   EXPECT_TRUE(isMixed(red));
   const IrradianceRecord more = cache.records()[0];
@@ -137,22 +135,22 @@ TEST(SharesOfARecord, AreThoseOfItsLightsWithAllThatTheyBounce) {
   ASSERT_EQ(record.shares.size(), 3u);
   for (int c = 0; c < 3; ++c) {
     EXPECT_EQ(record.shares[0].E[c], 0) << "nothing shines by itself";
-    EXPECT_NEAR((record.shares[1].E + record.shares[2].E)[c], record.E[c], 1e-4f * record.E[c]);
+    EXPECT_NEAR((record.shares[1].E + record.shares[2].E)[c], record.light.E[c], 1e-4f * record.light.E[c]);
     const vec3 gradient = record.shares[1].translationGradient[c] + record.shares[2].translationGradient[c];
-    EXPECT_LT(glm::distance(gradient, record.translationGradient[c]), 1e-3f);
+    EXPECT_LT(glm::distance(gradient, record.light.translationGradient[c]), 1e-3f);
   }
   SceneBuilder brighter = room();
   brighter.scene.lights.back()->shader.params[0].floats[0] *= 3;
   const IrradianceRecord truth = gatherIn(std::move(brighter), {});
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR((record.shares[1].E + 3.0f * record.shares[2].E)[c], truth.E[c], 1e-3f * truth.E[c]);
-  EXPECT_GT(luminance(record.shares[2].E), 0.1f * luminance(record.E));
+    EXPECT_NEAR((record.shares[1].E + 3.0f * record.shares[2].E)[c], truth.light.E[c], 1e-3f * truth.light.E[c]);
+  EXPECT_GT(luminance(record.shares[2].E), 0.1f * luminance(record.light.E));
 }
 
 TEST(SharesOfARecord, LeaveTheRecordAsItIs) {
   const IrradianceRecord with = gatherIn(room(), kGroups), without = gatherIn(room(), {});
-  EXPECT_EQ(with.E, without.E);
-  EXPECT_EQ(with.translationGradient[1], without.translationGradient[1]);
+  EXPECT_EQ(with.light.E, without.light.E);
+  EXPECT_EQ(with.light.translationGradient[1], without.light.translationGradient[1]);
   EXPECT_EQ(with.noise, without.noise);
 }
 

@@ -36,9 +36,10 @@ struct Equations {
   double weight(const IrradianceRecord& r, const vec3& x, const vec3& n, double pixel, double wider) const {
     const Triple step = Triple(x) - Triple(r.position), ni = r.normal, turned = n;
     const double covers = reach(r, pixel);
-    const Triple change =
-        covers * Triple(r.translationGradient[0] + r.translationGradient[1] + r.translationGradient[2]);
-    const double even = 1 - std::min(1.0, dot(change, change) / std::pow(0.3 * (r.E.x + r.E.y + r.E.z), 2));
+    const Triple change = covers * Triple(r.light.translationGradient[0] + r.light.translationGradient[1] +
+                                          r.light.translationGradient[2]);
+    const double even =
+        1 - std::min(1.0, dot(change, change) / std::pow(0.3 * (r.light.E.x + r.light.E.y + r.light.E.z), 2));
     const double radius = std::min<double>(covers * (1 + (wider - 1) * even), r.limit), distance = glm::length(step);
     const double tolerance = std::max<double>(std::min(0.1 * radius, 0.45 * pixel / kappa), r.unseenDisplacement);
     const double behind = std::max(0.0, -dot(step, turned + ni) / 2 / tolerance);
@@ -51,14 +52,14 @@ struct Equations {
   static Triple change(const IrradianceRecord& r, const Triple& step, const Triple& turn) {
     Triple out;
     for (int c = 0; c < 3; ++c)
-      out[c] = dot(turn, Triple(r.rotationGradient[c])) + dot(step, Triple(r.translationGradient[c]));
+      out[c] = dot(turn, Triple(r.light.rotationGradient[c])) + dot(step, Triple(r.light.translationGradient[c]));
     return out;
   }
   static Triple changeAt(const IrradianceRecord& r, const vec3& x, const vec3& n) {
     return change(r, Triple(x) - Triple(r.position), cross(Triple(r.normal), Triple(n)));
   }
   static Triple lightAt(const IrradianceRecord& r, const vec3& x, const vec3& n) {
-    return glm::max(Triple(0), Triple(r.E) + changeAt(r, x, n));
+    return glm::max(Triple(0), Triple(r.light.E) + changeAt(r, x, n));
   }
   static double noiseAt(const IrradianceRecord& r, const vec3& x) {
     return r.noise * (1 + glm::length(Triple(x) - Triple(r.position)) / r.harmonicMean);
@@ -66,7 +67,7 @@ struct Equations {
   /// Returns 0 if there is none, 1 if light is steep, 2 if different surfaces are seen.
   int disagreement(const Triple& a, const Triple& b, double noise) const {
     double sum = 0;
-    for (const IrradianceRecord& r : records) sum += luminanceOf(r.E);
+    for (const IrradianceRecord& r : records) sum += luminanceOf(r.light.E);
     const double off = std::abs(luminanceOf(a) - luminanceOf(b)) - 3 * noise,
                  scale = std::max({luminanceOf(a), luminanceOf(b), 0.1 * sum / static_cast<double>(records.size())});
     if (asPublished || off <= (splitSphere ? 0.4 : 0.1) / kappa * scale) return 0;
@@ -78,20 +79,20 @@ struct Equations {
   void insert(IrradianceRecord fresh) {
     const double radius = reach(fresh, fresh.pixelSize);
     for (int c = 0; c < 3; ++c) {
-      const double steep = glm::length(Triple(fresh.translationGradient[c])) * radius;
-      if (steep > fresh.E[c]) fresh.translationGradient[c] *= static_cast<float>(fresh.E[c] / steep);
-      const double xx = fresh.hessian[0][c], xy = fresh.hessian[1][c], yy = fresh.hessian[2][c];
+      const double steep = glm::length(Triple(fresh.light.translationGradient[c])) * radius;
+      if (steep > fresh.light.E[c]) fresh.light.translationGradient[c] *= static_cast<float>(fresh.light.E[c] / steep);
+      const double xx = fresh.light.hessian[0][c], xy = fresh.light.hessian[1][c], yy = fresh.light.hessian[2][c];
       const double bend = radius * radius / 2 * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
-      for (vec3& second : fresh.hessian)
-        if (bend > fresh.E[c]) second[c] *= static_cast<float>(fresh.E[c] / bend);
+      for (vec3& second : fresh.light.hessian)
+        if (bend > fresh.light.E[c]) second[c] *= static_cast<float>(fresh.light.E[c] / bend);
     }
     records.push_back(fresh);
     for (size_t i = 0; i + 1 < records.size(); ++i) {
       IrradianceRecord &a = records[i], &b = records.back();
       if (weight(a, b.position, b.normal, b.pixelSize, 1) <= 0) continue;
       const double apart = glm::length(Triple(a.position) - Triple(b.position));
-      const int ofA = disagreement(lightAt(a, b.position, b.normal), b.E, noiseAt(a, b.position) + b.noise),
-                ofB = disagreement(lightAt(b, a.position, a.normal), a.E, noiseAt(b, a.position) + a.noise);
+      const int ofA = disagreement(lightAt(a, b.position, b.normal), b.light.E, noiseAt(a, b.position) + b.noise),
+                ofB = disagreement(lightAt(b, a.position, a.normal), a.light.E, noiseAt(b, a.position) + a.noise);
       a.limit = std::min(a.limit, static_cast<float>(limitBy(ofA, apart, a.pixelSize)));
       b.limit = std::min(b.limit, static_cast<float>(limitBy(ofB, apart, b.pixelSize)));
     }
@@ -122,8 +123,8 @@ struct Equations {
       turn += w / W * cross(Triple(r->normal), Triple(at.shadingNormal));
       changes += w / W * changeAt(*r, at.position, at.shadingNormal);
       for (int c = 0; c < 3; ++c) {
-        mean.translationGradient[c] += static_cast<float>(w / W) * r->translationGradient[c];
-        mean.rotationGradient[c] += static_cast<float>(w / W) * r->rotationGradient[c];
+        mean.light.translationGradient[c] += static_cast<float>(w / W) * r->light.translationGradient[c];
+        mean.light.rotationGradient[c] += static_cast<float>(w / W) * r->light.rotationGradient[c];
         dominant[c] += w * Triple(r->dominant[c]);
       }
       nearest = std::min(nearest, distance);
@@ -140,7 +141,8 @@ struct Equations {
         const Triple known = step * std::min(1.0, reach(*r, at.pixelSize) / glm::length(step));
         const double a = dot(known, Triple(r->tangent)), b = dot(known, cross(Triple(r->normal), Triple(r->tangent)));
         second += w / W / 2 *
-                  (a * a * Triple(r->hessian[0]) + 2 * a * b * Triple(r->hessian[1]) + b * b * Triple(r->hessian[2]));
+                  (a * a * Triple(r->light.hessian[0]) + 2 * a * b * Triple(r->light.hessian[1]) +
+                   b * b * Triple(r->light.hessian[2]));
       }
     out.E = vec3(glm::max(Triple(0), E + (asPublished ? Triple(0) : agreement * second)));
     out.inconsistent = limitBy(worst, nearest, at.pixelSize) <= nearest;
@@ -164,13 +166,13 @@ IrradianceRecord record(uint32_t i) {
   IrradianceRecord r{};
   r.position = randomIn(i, 1) * vec3(1, 1, 0.004f);
   r.normal = glm::normalize(vec3(0, 0, 1) + 0.06f * randomIn(i, 2));
-  r.E = vec3(1, 0.5f, 2) + 0.3f * r.position.x + 0.06f * randomIn(i, 3);
-  if (i % 17 == 0) r.E *= 4;
-  if (i % 23 == 0) r.E = vec3(0.02f);
+  r.light.E = vec3(1, 0.5f, 2) + 0.3f * r.position.x + 0.06f * randomIn(i, 3);
+  if (i % 17 == 0) r.light.E *= 4;
+  if (i % 23 == 0) r.light.E = vec3(0.02f);
   for (uint32_t c = 0; c < 3; ++c) {
-    r.rotationGradient[c] = 0.2f * randomIn(i, 4 + c);
-    r.translationGradient[c] = vec3(0.3f, 0, 0) + (i % 7 == 0 ? 60.0f : 0.6f) * randomIn(i, 7 + c);
-    r.hessian[c] = (i % 5 == 0 ? 400.0f : 2.0f) * randomIn(i, 10 + c);
+    r.light.rotationGradient[c] = 0.2f * randomIn(i, 4 + c);
+    r.light.translationGradient[c] = vec3(0.3f, 0, 0) + (i % 7 == 0 ? 60.0f : 0.6f) * randomIn(i, 7 + c);
+    r.light.hessian[c] = (i % 5 == 0 ? 400.0f : 2.0f) * randomIn(i, 10 + c);
     r.dominant[c] = glm::normalize(vec3(0, 0, 1) + randomIn(i, 13 + c));
   }
   r.tangent = normalizeOr(cross(r.normal, randomIn(i, 16)), vec3(1, 0, 0));
@@ -216,9 +218,9 @@ TEST(CacheEquations, SayHowFarEachRecordIsValid) {
       const IrradianceRecord &a = cache.records()[i], &b = plain.records[i];
       EXPECT_FLOAT_EQ(a.limit, b.limit) << kind.name << ' ' << i;
       for (size_t c = 0; c < 3; ++c) {
-        EXPECT_LT(glm::length(a.translationGradient[c] - b.translationGradient[c]),
-                  1e-4f * (1 + glm::length(b.translationGradient[c])));
-        EXPECT_LT(glm::length(a.hessian[c] - b.hessian[c]), 1e-4f * (1 + glm::length(b.hessian[c])));
+        EXPECT_LT(glm::length(a.light.translationGradient[c] - b.light.translationGradient[c]),
+                  1e-4f * (1 + glm::length(b.light.translationGradient[c])));
+        EXPECT_LT(glm::length(a.light.hessian[c] - b.light.hessian[c]), 1e-4f * (1 + glm::length(b.light.hessian[c])));
       }
       limited += a.limit < kInfinity;
     }
@@ -233,12 +235,12 @@ TEST(CacheEquations, DimLightHasTheLimitsOfBrightLight) {
       IrradianceRecord r = record(i);
       bright.insert(r);
       const float scale = std::exp2(-20.0f);
-      r.E *= scale;
+      r.light.E *= scale;
       r.noise *= scale;
       for (size_t c = 0; c < 3; ++c) {
-        r.translationGradient[c] *= scale;
-        r.rotationGradient[c] *= scale;
-        r.hessian[c] *= scale;
+        r.light.translationGradient[c] *= scale;
+        r.light.rotationGradient[c] *= scale;
+        r.light.hessian[c] *= scale;
       }
       dim.insert(r);
     }
@@ -294,14 +296,10 @@ TEST(CacheEquations, SharesThatAreFractionsOfTheLightGiveThatFractionOfIt) {
     IrradianceCache cache({vec3(-0.9f), vec3(0.9f)}, kind.settings);
     for (uint32_t i = 0; i < 400; ++i) {
       IrradianceRecord r = record(i);
-      LightShare whole{.E = r.E};
-      std::ranges::copy(r.rotationGradient, whole.rotationGradient);
-      std::ranges::copy(r.translationGradient, whole.translationGradient);
-      std::ranges::copy(r.hessian, whole.hessian);
-      for (const vec3& fraction : fractions) r.shares.emplace_back().add(whole, fraction);
+      for (const vec3& fraction : fractions) r.shares.emplace_back().add(r.light, fraction);
       cache.insert(r);
     }
-    const std::vector<LightShare> light = cache.mixed(gains);
+    const std::vector<IrradianceExpansion> light = cache.mixed(gains);
     ASSERT_EQ(light.size(), 400u);
     const vec3 all = fractions[0] * gains[0] + fractions[1] * gains[1];
     for (uint32_t i = 0; i < 300; ++i) {
@@ -317,12 +315,12 @@ TEST(CacheEquations, SharesThatAreFractionsOfTheLightGiveThatFractionOfIt) {
     IrradianceRecord r = cache.records()[3];
     r.noise = 0.01f;
     const IrradianceRecord brighter = withGains(r, gains);
-    EXPECT_LT(glm::length(brighter.E - all * r.E), 1e-4f);
+    EXPECT_LT(glm::length(brighter.light.E - all * r.light.E), 1e-4f);
     EXPECT_FLOAT_EQ(brighter.noise, 4 * r.noise) << "no share is brighter by more";
     for (int c = 0; c < 3; ++c) {
-      EXPECT_LT(glm::length(brighter.translationGradient[c] - all[c] * r.translationGradient[c]), 1e-4f);
-      EXPECT_LT(glm::length(brighter.rotationGradient[c] - all[c] * r.rotationGradient[c]), 1e-4f);
-      EXPECT_LT(glm::length(brighter.hessian[c] - all * r.hessian[c]), 1e-2f);
+      EXPECT_LT(glm::length(brighter.light.translationGradient[c] - all[c] * r.light.translationGradient[c]), 1e-4f);
+      EXPECT_LT(glm::length(brighter.light.rotationGradient[c] - all[c] * r.light.rotationGradient[c]), 1e-4f);
+      EXPECT_LT(glm::length(brighter.light.hessian[c] - all * r.light.hessian[c]), 1e-2f);
       EXPECT_LT(glm::length(brighter.shares[0].E - gains[0] * r.shares[0].E), 1e-4f);
     }
   }
