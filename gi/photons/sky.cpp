@@ -97,7 +97,7 @@ float SkyCells::pdf(const Cell& cell) const {
 }
 
 SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
-    : light_(light), shading_(shading), center_(target.center()), radius_(target.radius()) {
+    : LightPhotons(light, shading, target) {
   for (const Portal& p : shading.portals(light))
     portals_.push_back({p, {freeSky(rays, p, p.normal), freeSky(rays, p, -p.normal)}});
   const std::vector<float> radiance = survey(light, shading);
@@ -150,14 +150,15 @@ vec3 SkyPhotons::onDisk(const vec3& toSky, const vec2& xi) const {
 
 /// Photons start on a disk before the scene or on a portal. Both kinds are weighted by the balance heuristic (Veach
 /// 1997), over direction and the area across it.
-void SkyPhotons::emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const {
+void SkyPhotons::emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out) const {
+  const auto& [a, b] = xi;
   LightProbe probe;
   std::vector<float> pdf;
   for (size_t i = 0; i < out.size(); ++i) {
     const bool through = a[i].x < share_;
-    const vec2 xi(through ? a[i].x / share_ : (a[i].x - share_) / (1 - share_), a[i].y);
+    const vec2 place(through ? a[i].x / share_ : (a[i].x - share_) / (1 - share_), a[i].y);
     SkyCells::Cell cell;
-    const vec3 toSky = (through ? through_ : open_).sample(xi, cell);
+    const vec3 toSky = (through ? through_ : open_).sample(place, cell);
     const vec3 P = through ? onPortal(toSky, b[i]) : onDisk(toSky, b[i]);
     const float open = (1 - share_) * open_.pdf(cell) / (kPi * radius_ * radius_);
     pdf.push_back(share_ > 0 ? share_ * through_.pdf(cell) * portalPdf(P, toSky) + open : open);

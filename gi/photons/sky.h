@@ -1,7 +1,7 @@
 // Private to gi: photons as they leave a sky, in proportion to its brightness in every direction, and most of them
 // through its portals if it has any. Space: current. Power: W. Threads: const members may be called concurrently.
 #pragma once
-#include "gi/photons/emission.h"
+#include "gi/photons/light_photons.h"
 
 namespace tomales {
 
@@ -30,15 +30,12 @@ class SkyCells {
   double integral_ = 0;
 };
 
-class SkyPhotons {
+class SkyPhotons final : public LightPhotons {
  public:
   SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target);
 
-  double power() const { return power_; }  ///< The same as PhotonSource::power().
-  /// Each photon takes a pair of random numbers from a and one from b.
-  void emit(const std::vector<vec2>& a, const std::vector<vec2>& b, std::vector<EmittedPhoton>& out) const;
-
  private:
+  void emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out) const override;
   struct Opening : Portal {
     float free[2];  ///< Share of the sky before and behind the portal that nothing hides.
     float across(const vec3& toSky) const {
@@ -51,15 +48,10 @@ class SkyPhotons {
   float portalPdf(const vec3& P, const vec3& toSky) const;
   vec3 onDisk(const vec3& toSky, const vec2& xi) const;
 
-  const int light_;
-  const ShadingSystem& shading_;
-  const vec3 center_;   ///< Center of the scene.
-  const float radius_;  ///< Radius of the scene.
   std::vector<Opening> portals_;
   /// Directions of photons that start on a disk before the whole scene, and of those through portals.
   SkyCells open_, through_;
   float share_ = 0;  ///< Share of photons through portals.
-  double power_ = 0;
 };
 
 }  // namespace tomales

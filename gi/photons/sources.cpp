@@ -1,6 +1,7 @@
 #include "gi/photons/sources.h"
 
 #include "gi/photons/emissive_photons.h"
+#include "gi/photons/light_photons.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -12,19 +13,18 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
   const PhotonTarget target(scene);
   std::vector<std::unique_ptr<const PhotonSource>> sources;
   const auto add = [&](std::unique_ptr<const PhotonSource> source) {
-    if (source->power() > 0) sources.push_back(std::move(source));
+    if (source && source->power() > 0) sources.push_back(std::move(source));
   };
   for (const auto& light : scene.lights) {
-    const LightKind kind = shading.lightKind(light->index);
     const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
                                   [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
-    if (!isOn || kind == LightKind::None || kind == LightKind::Indirect) continue;
-    if (kind == LightKind::Ambient) {
+    if (!isOn) continue;
+    if (shading.lightKind(light->index) == LightKind::Ambient) {
       log.report(Severity::Warning, "photons-ambient", light->shader.where,
                  "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
       continue;
     }
-    add(std::make_unique<LightPhotons>(light->index, shading, rays, target));
+    add(photonsOf(light->index, shading, rays, target));
   }
   // A glowing surface is the first surface of its photons, and a diffuse one.
   const bool glows = settings.maxDepth > 1 && settings.mostBounces > 0 && !settings.focusedOnly;
