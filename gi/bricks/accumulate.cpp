@@ -100,11 +100,11 @@ float BrickAccumulator::addChild(const BrickAccumulator& child, int octant) {
   least_.clear();
   most_.clear();
   float spread = 0;
+  const glm::ivec3 first = half * octantOffset(octant);
   for (int v = 0; v < kBrickVoxels; ++v) {
     if (child.head_[static_cast<size_t>(v)] < 0) continue;
     const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);
-    const int to =
-        voxelIndex((octant & 1 ? half : 0) + x / 2, (octant & 2 ? half : 0) + y / 2, (octant & 4 ? half : 0) + z / 2);
+    const int to = voxelIndex(first.x + x / 2, first.y + y / 2, first.z + z / 2);
     for (int32_t l = child.head_[static_cast<size_t>(v)]; l >= 0; l = child.layers_[static_cast<size_t>(l)].next) {
       const LayerSum& sum = child.layers_[static_cast<size_t>(l)];
       const float* data = child.data_.data() + static_cast<size_t>(l) * width_;

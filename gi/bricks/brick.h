@@ -20,7 +20,7 @@ constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
 constexpr int kMostLevels = 22;
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
-constexpr float kLayerCosine = 0.70710678f;  ///< 45 degrees (Christensen and Batali 2004, sections 3.2 and 3.3)
+constexpr float kLayerCosine = kCosine45;  ///< 45 degrees (Christensen and Batali 2004, sections 3.2 and 3.3)
 
 /// Calls work for channels 0 .. width - 1. Three channels, as most data have, need no loop.
 template <class Work>
@@ -28,6 +28,9 @@ inline void forEachChannel(size_t width, const Work& work) {
   if (width == 3) return work(size_t{0}), work(size_t{1}), work(size_t{2});
   for (size_t k = 0; k < width; ++k) work(k);
 }
+
+/// Returns where an octant of a cube begins, in halves of its edge.
+inline glm::ivec3 octantOffset(int octant) { return {octant & 1, octant >> 1 & 1, octant >> 2 & 1}; }
 
 inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBrickWidth + x; }
 

@@ -87,10 +87,9 @@ PointCloud voxelsOf(const BrickFile& file, int level) {
     const BrickNode& node = tree.nodes[static_cast<size_t>(p.node)];
     const bool deeper = level < 0 || p.level < level;
     const float half = std::ldexp(tree.cube.size, -p.level - 1), voxel = tree.cube.voxelSize(p.level);
-    for (size_t octant = 0; octant < 8; ++octant)
-      if (deeper && node.child[octant] >= 0)
-        todo.push_back(
-            {node.child[octant], p.level + 1, p.lo + half * vec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1)});
+    for (int octant = 0; octant < 8; ++octant)
+      if (const int32_t child = node.child[static_cast<size_t>(octant)]; deeper && child >= 0)
+        todo.push_back({child, p.level + 1, p.lo + half * vec3(octantOffset(octant))});
     const Brick brick = file.brick(p.node);
     for (int v = 0; v < kBrickVoxels; ++v) {
       const int x = v % kBrickWidth, y = v / kBrickWidth % kBrickWidth, z = v / (kBrickWidth * kBrickWidth);

@@ -121,9 +121,7 @@ class Builder {
   vec3 corner(int level, const glm::ivec3& place) const {
     return out_.tree.cube.lo + std::ldexp(out_.tree.cube.size, -level) * vec3(place);
   }
-  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) {
-    return place * 2 + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1);
-  }
+  static glm::ivec3 placeOfChild(const glm::ivec3& place, int octant) { return place * 2 + octantOffset(octant); }
 
   /// Fills the sums of `level` with the cube at `place` (counted in cubes of that level), and `node` with the children
   /// that are kept.

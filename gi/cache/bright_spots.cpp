@@ -40,13 +40,12 @@ struct Cluster {
     }
     turn *= dot(bound.size(), bound.size());
   }
-  static int widest(const vec3& v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
   float spread() const {
-    return hits.size() < kHitsToSplit ? 0.0f : std::max(variance[widest(variance)], turn[widest(turn)]);
+    return hits.size() < kHitsToSplit ? 0.0f : std::max(variance[longestAxis(variance)], turn[longestAxis(turn)]);
   }
   size_t splitAtMean() {
-    const bool byPosition = variance[widest(variance)] >= turn[widest(turn)];
-    const int axis = byPosition ? widest(variance) : widest(turn);
+    const bool byPosition = variance[longestAxis(variance)] >= turn[longestAxis(turn)];
+    const int axis = byPosition ? longestAxis(variance) : longestAxis(turn);
     const auto middle = std::stable_partition(hits.begin(), hits.end(), [&](const BrightHit& h) {
       return byPosition ? h.position[axis] < mean[axis] : h.normal[axis] < normal[axis];
     });
@@ -69,7 +68,7 @@ struct Cluster {
   }
   BrightSpots::Spot rectangle(const vec3& n, float radiance) const {
     vec3 u(0), v;
-    u[widest(bound.size())] = 1;
+    u[longestAxis(bound.size())] = 1;
     u = normalizeOr(u - dot(u, n) * n, {});
     v = cross(n, u);
     vec2 low(kInfinity), high(-kInfinity);

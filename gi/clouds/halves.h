@@ -14,7 +14,7 @@ template <class Thing>
 std::optional<uint32_t> halve(std::vector<Thing>& things, uint32_t begin, uint32_t end, const vec3& size) {
   constexpr uint32_t kTogether = 8;
   if (end - begin <= kTogether) return std::nullopt;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = longestAxis(size);
   const uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(things.begin() + begin, things.begin() + middle, things.begin() + end,
                    [axis](const Thing& a, const Thing& b) { return a.P[axis] < b.P[axis]; });

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kOccluderPixels = 2;  // Length of the rays in pixels. Records have met occluders that are farther away.
 constexpr float kUnmet = 0.9f;        // Share of a record's closest distance below which it has met nothing.
-constexpr float kSlant = 0.70710678f;
+constexpr float kSlant = kCosine45;
 
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace tomales {
 /// cell for each direction.
 class SkyCells {
  public:
-  static constexpr int kRows = 512, kColumns = 1024;
+  static constexpr int kRows = kSkyRows, kColumns = kSkyColumns;
   struct Cell {
     size_t row, column;
   };

@@ -59,7 +59,7 @@ void PhotonTree::build(std::vector<uint32_t>& order, uint32_t begin, uint32_t en
   Bound3 bound;
   for (uint32_t i = begin; i < end; ++i) bound.extend(position(order[i]));
   const vec3 size = bound.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = longestAxis(size);
   const uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](uint32_t a, uint32_t b) {
     const float pa = position(a)[axis], pb = position(b)[axis];

@@ -22,6 +22,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
+constexpr float kCosine45 = 0.70710678f;  ///< Sine and cosine of 45 degrees.
 constexpr float kPi = 3.14159265358979323846f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kRiInfinity = 1e30f;  ///< Scenes and files write this, or more (RI_INFINITY is 1e38), for no limit.
@@ -42,6 +43,8 @@ inline vec3 normalizeOr(const vec3& v, const vec3& fallback) {
 inline bool isFinite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline float luminance(const vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 inline float maxComponent(const vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
+/// Returns the axis along which a box of this size is longest.
+inline int longestAxis(const vec3& size) { return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2; }
 inline float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
 /// Writes two unit vectors that complete unit vector n to a right-handed frame (Duff et al. 2017).

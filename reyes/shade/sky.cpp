@@ -5,7 +5,6 @@
 namespace tomales {
 namespace {
 
-constexpr int kRows = 512, kColumns = 1024;  ///< A cell is a third of a degree high: the sun is half a degree wide.
 constexpr float kPictureShare = 0.5f;
 constexpr float kLeastCosine = 1e-3f;  ///< Limits what one sample brings.
 
@@ -44,16 +43,16 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
          const mat3& worldFromCurrent)
     : worldFromCurrent_(worldFromCurrent) {
   // Twice as wide as a cell, since a direction in the cell sees its neighbours too.
-  const AlignedVector<float> width(kColumns, 2.0f / kColumns), height(kColumns, 2.0f / kRows);
-  AlignedVector<float> s(kColumns), t(kColumns), rgb[3];
-  for (auto& c : rgb) c.resize(kColumns);
-  const AlignedVector<uint8_t> active(kColumns, uint8_t{1});
-  for (int i = 0; i < kColumns; ++i) s[static_cast<size_t>(i)] = center(i, kColumns);
+  const AlignedVector<float> width(kSkyColumns, 2.0f / kSkyColumns), height(kSkyColumns, 2.0f / kSkyRows);
+  AlignedVector<float> s(kSkyColumns), t(kSkyColumns), rgb[3];
+  for (auto& c : rgb) c.resize(kSkyColumns);
+  const AlignedVector<uint8_t> active(kSkyColumns, uint8_t{1});
+  for (int i = 0; i < kSkyColumns; ++i) s[static_cast<size_t>(i)] = center(i, kSkyColumns);
   bool read = true;
-  for (int j = 0; j < kRows && read; ++j) {
-    std::fill(t.begin(), t.end(), center(j, kRows));
+  for (int j = 0; j < kSkyRows && read; ++j) {
+    std::fill(t.begin(), t.end(), center(j, kSkyRows));
     TextureQuery query{picture.c_str()};
-    query.count = kColumns;
+    query.count = kSkyColumns;
     query.active = active.data();
     query.s = s.data();
     query.t = t.data();
@@ -62,8 +61,8 @@ Sky::Sky(const Textures& textures, const std::string& picture, const SourceLoc& 
     query.latlong = true;
     read = textures.lookup(query, where, user, {rgb[0].data(), rgb[1].data(), rgb[2].data()});
     Distribution& row = row_.emplace_back();
-    for (size_t i = 0; i < kColumns; ++i) {
-      const float light = luminance({rgb[0][i], rgb[1][i], rgb[2][i]}) * solidAngleAt(center(j, kRows));
+    for (size_t i = 0; i < kSkyColumns; ++i) {
+      const float light = luminance({rgb[0][i], rgb[1][i], rgb[2][i]}) * solidAngleAt(center(j, kSkyRows));
       row.add(light > 0 && std::isfinite(light) ? double{light} : 0.0);
     }
     rows_.add(row.total());
@@ -89,8 +88,8 @@ vec3 Sky::openSample(const vec3& N, vec2 xi) const {
   if (xi.x >= share) return cosineDirection(N, {(xi.x - share) / (1 - share), xi.y});
   double s{xi.x / share}, t{xi.y};
   const size_t j = rows_.pick(t), i = row_[j].pick(s);
-  const vec3 L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kColumns,
-                                   (static_cast<float>(j) + static_cast<float>(t)) / kRows});
+  const vec3 L = latLongDirection({(static_cast<float>(i) + static_cast<float>(s)) / kSkyColumns,
+                                   (static_cast<float>(j) + static_cast<float>(t)) / kSkyRows});
   return normalizeOr(glm::transpose(worldFromCurrent_) * L, vec3(0.0f, 0.0f, 1.0f));
 }
 
@@ -104,8 +103,8 @@ float Sky::picturePdf(const vec3& L) const {
   const auto cell = [](float x, int count) {
     return static_cast<size_t>(std::clamp(static_cast<int>(x * static_cast<float>(count)), 0, count - 1));
   };
-  const double share = row_[cell(st.y, kRows)].weight(cell(st.x, kColumns)) / rows_.total();
-  return static_cast<float>(share * kRows * kColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
+  const double share = row_[cell(st.y, kSkyRows)].weight(cell(st.x, kSkyColumns)) / rows_.total();
+  return static_cast<float>(share * kSkyRows * kSkyColumns / std::max(double{solidAngleAt(st.y)}, 1e-9));
 }
 
 mat3 skyFromCurrent(const mat4& currentFromSpace) {

@@ -22,7 +22,7 @@ namespace tomales {
 vec2 latLong(const vec3& worldDirection);
 vec3 latLongDirection(const vec2& st);
 
-constexpr float kSkyCell = 2 * kPi / 1024;  ///< The size in radians of the cells of brightness.
+constexpr float kSkyCell = 2 * kPi / kSkyColumns;  ///< The size in radians of the cells of brightness.
 
 class Sky {
  public:
