@@ -95,68 +95,74 @@ bool isAcrossWalls(const PhotonTree& tree, int power, uint32_t at, std::span<con
   return std::abs(behind / all - (1 - seen)) > kNotByChance * chance;
 }
 
-Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
-                  const SightAlongSurface& sight, std::vector<NearPhoton>& heap) {
-  const vec3 P = tree.position(at), N = tree.normal(at);
+/// Sums over the photons inside the disk or the ball of an estimate.
+struct NearSums {
+  /// The farthest photon gives the radius and does not count: a disk that just excludes the n-th has n - 1 inside.
+  /// Where there are very few photons, two that happen to be close would shine, so the disk has the greatest radius.
+  bool byFarthest = false;
+  size_t inside = 0;                             ///< Number of photons.
+  vec3 power{0.0f}, offset{0.0f}, normal{0.0f};  ///< offset: from the place of the estimate.
+};
+
+/// Finds the nearest photons, sorts them and sums those inside. N, surface: as in PhotonTree::nearest().
+NearSums sumNear(const PhotonTree& tree, int power, uint32_t at, const vec3& N, int surface,
+                 const PhotonIrradianceSettings& settings, std::vector<NearPhoton>& near) {
+  const vec3 P = tree.position(at);
   const auto most = static_cast<size_t>(settings.nearest);
-  tree.nearest(P, N, tree.surface(at), most, settings.maxRadius, heap);
-  // The farthest photon gives the radius and does not count: a disk that just excludes the n-th has n - 1 inside. Where
-  // there are very few photons, two that happen to be close would shine, so the disk has the greatest radius.
-  const bool byFarthest = heap.size() >= std::min(kFew, most);
-  const float r2 = byFarthest ? heap.front().distance2 : settings.maxRadius * settings.maxRadius;
-  if (!(r2 > 0)) return {vec3(0.0f), 0};
-  std::sort(heap.begin(), heap.end());  // sums are in the order of distance, which does not depend on threads
-  const size_t inside = heap.size() - byFarthest;
-  vec3 sum(0.0f), centroid(0.0f), normal(0.0f);
-  for (size_t i = 0; i < inside; ++i) {
-    const float* w = tree.photons().at(heap[i].photon) + power;
-    sum += vec3(w[0], w[1], w[2]);
-    centroid += tree.position(heap[i].photon) - P;
-    normal += tree.normal(heap[i].photon);
+  tree.nearest(P, N, surface, most, settings.maxRadius, near);
+  NearSums out;
+  out.byFarthest = near.size() >= std::min(kFew, most);
+  out.inside = near.size() - out.byFarthest;
+  std::sort(near.begin(), near.end());  // sums are in the order of distance, which does not depend on threads
+  for (size_t i = 0; i < out.inside; ++i) {
+    const float* w = tree.photons().at(near[i].photon) + power;
+    out.power += vec3(w[0], w[1], w[2]);
+    out.offset += tree.position(near[i].photon) - P;
+    out.normal += tree.normal(near[i].photon);
   }
-  const float count = static_cast<float>(std::max<size_t>(inside, 1));
-  centroid /= count;
+  return out;
+}
+
+Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
+                  const SightAlongSurface& sight, std::vector<NearPhoton>& near) {
+  const vec3 N = tree.normal(at);
+  const auto most = static_cast<size_t>(settings.nearest);
+  const NearSums sums = sumNear(tree, power, at, N, tree.surface(at), settings, near);
+  const float r2 = sums.byFarthest ? near.back().distance2 : settings.maxRadius * settings.maxRadius;
+  if (!(r2 > 0)) return {vec3(0.0f), 0};
+  const float count = static_cast<float>(std::max<size_t>(sums.inside, 1));
+  const vec3 centroid = sums.offset / count;
   const float distance = glm::length(centroid - dot(centroid, N) * N) / std::sqrt(r2);
   const float belief = glm::smoothstep(kChanceEnds, kBorderBegins, distance);
   const float covered = glm::mix(1.0f, coveredShare(distance), belief), area = kPi * r2 * covered;
-  const float wide = diskRadius(area, inside, settings.every), close = nearRadius(heap, settings.every);
+  const float wide = diskRadius(area, sums.inside, settings.every), close = nearRadius(near, settings.every);
   const float reach = std::sqrt(r2);
-  const bool across = sight && isAcrossWalls(tree, power, at, std::span(heap).first(inside), reach, sight);
+  const bool across = sight && isAcrossWalls(tree, power, at, std::span(near).first(sums.inside), reach, sight);
   // Photons behind a wall do not tell how far apart those before it are. So an estimate across a wall marks all that
   // was searched.
-  return {sum / area,
+  return {sums.power / area,
           across                       ? reach
           : close < kMuchCloser * wide ? close
                                        : wide,
-          heap.size() < most,
-          glm::length(normal) < kMuchBent * count,
-          heap.size() < std::min(kVeryFew, most),
-          clumpOf(heap, area, inside),
+          near.size() < most,
+          glm::length(sums.normal) < kMuchBent * count,
+          near.size() < std::min(kVeryFew, most),
+          clumpOf(near, area, sums.inside),
           across};
 }
 
 /// Does the same as estimate(), for a ball in a medium.
 Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const PhotonIrradianceSettings& settings,
-                          std::vector<NearPhoton>& heap) {
-  const vec3 P = tree.position(at);
-  const auto most = static_cast<size_t>(settings.nearest);
-  tree.nearest(P, vec3(0), 0, most, settings.maxRadius, heap);
-  const bool byFarthest = heap.size() >= std::min(kFew, most);
-  const float r = byFarthest ? std::sqrt(heap.front().distance2) : settings.maxRadius;
+                          std::vector<NearPhoton>& near) {
+  const NearSums sums = sumNear(tree, power, at, vec3(0), 0, settings, near);
+  const float r = sums.byFarthest ? std::sqrt(near.back().distance2) : settings.maxRadius;
   if (!(r > 0)) return {vec3(0.0f), 0};
-  std::sort(heap.begin(), heap.end());
-  const size_t inside = heap.size() - byFarthest;
-  vec3 sum(0.0f), centroid(0.0f);
-  for (size_t i = 0; i < inside; ++i) {
-    const float* w = tree.photons().at(heap[i].photon) + power;
-    sum += vec3(w[0], w[1], w[2]);
-    centroid += tree.position(heap[i].photon) - P;
-  }
-  const float count = static_cast<float>(std::max<size_t>(inside, 1)), distance = glm::length(centroid) / (count * r);
+  const float count = static_cast<float>(std::max<size_t>(sums.inside, 1)),
+              distance = glm::length(sums.offset) / (count * r);
   const float covered =
       glm::mix(1.0f, coveredShareOfBall(distance), glm::smoothstep(kChanceEnds, kBorderBegins, distance));
   const float volume = 4.0f / 3 * kPi * r * r * r * covered;
-  return {sum / volume, kOverlap * r * std::cbrt(covered * static_cast<float>(settings.every) / count)};
+  return {sums.power / volume, kOverlap * r * std::cbrt(covered * static_cast<float>(settings.every) / count)};
 }
 
 }  // namespace
@@ -212,12 +218,12 @@ PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings
   std::vector<Estimate> estimates(count);
   parallelFor(count, PhotonTree::kLookupsPerTask, [&](size_t begin, size_t end) {
     throwIfStopped();
-    std::vector<NearPhoton> heap;
+    std::vector<NearPhoton> near;
     for (size_t i = begin; i < end; ++i) {
       const auto at = static_cast<uint32_t>(i * every);
       if (!wanted || wanted(tree.position(at)))
-        estimates[i] = inMedia ? estimateInMedium(tree, power, at, settings, heap)
-                               : estimate(tree, power, at, settings, sight, heap);
+        estimates[i] = inMedia ? estimateInMedium(tree, power, at, settings, near)
+                               : estimate(tree, power, at, settings, sight, near);
     }
   });
   out.reserve(count);
