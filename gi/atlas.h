@@ -18,6 +18,7 @@
 #include "gi/photons.h"
 #include "gi/photons/caustics.h"
 #include "gi/photons/irradiance.h"
+#include "gi/world_from_current.h"
 
 namespace tomales {
 
@@ -136,16 +137,14 @@ class IrradianceAtlas {
                            bool* acrossWalls = nullptr) const;
   const BrickMap* open(const std::filesystem::path& file);
   void openCaustics(const std::filesystem::path& folder, const MapNames& names);
-  vec3 worldNormal(const vec3& N) const { return normalizeOr(worldNormalFromCurrent_ * N, N); }
+  vec3 worldNormal(const vec3& N) const { return normalizeOr(toWorld_.normals * N, N); }
   /// Returns the number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
   int surfaceIn(const MadeFrom& from, int group) const {
     return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
   }
 
   mutable BrickCache cache_;
-  mat4 worldFromCurrent_;
-  mat3 worldNormalFromCurrent_;
-  float worldFromCurrentScale_;
+  WorldFromCurrent toWorld_;
   std::vector<std::unique_ptr<const BrickMap>> maps_;  ///< Sorted by name.
   struct Photons {
     MadeFrom from;

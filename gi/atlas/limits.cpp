@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "gi/atlas/world_from_current.h"
+#include "gi/world_from_current.h"
 #include "reyes/camera.h"
 
 namespace tomales {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "gi/atlas.h"
-#include "gi/atlas/world_from_current.h"
 #include "gi/point_file.h"
 
 namespace tomales {
@@ -32,11 +31,7 @@ bool isMadeByHand(const fs::path& folder) {
 
 IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes,
                                  Log& log)
-    : cache_(cacheBytes),
-      worldFromCurrent_(WorldFromCurrent(scene).points),
-      worldNormalFromCurrent_(WorldFromCurrent(scene).normals),
-      worldFromCurrentScale_(WorldFromCurrent(scene).scale),
-      log_(log) {
+    : cache_(cacheBytes), toWorld_(scene), log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   openCaustics(folder / "photons", names);
   for (const std::string& name : names.ofReflectors())
@@ -68,8 +63,8 @@ void IrradianceAtlas::openCaustics(const fs::path& folder, const MapNames& names
 vec3 IrradianceAtlas::causticOverPi(int group, const vec3& P, const vec3& N, float radius) const {
   const Photons* map = causticPhotonsOfGroup_[static_cast<size_t>(group)];
   if (!map) return look(causticOfGroup_, group, P, N, radius).value_or(vec3(0.0f));
-  return map->photons.irradiance(transformPoint(worldFromCurrent_, P), worldNormal(N), surfaceIn(map->from, group),
-                                 radius * worldFromCurrentScale_) /
+  return map->photons.irradiance(transformPoint(toWorld_.points, P), worldNormal(N), surfaceIn(map->from, group),
+                                 radius * toWorld_.scale) /
          kPi;
 }
 
@@ -98,7 +93,7 @@ std::optional<vec3> IrradianceAtlas::look(const MapOfGroup& maps, int group, con
   if (!map) return std::nullopt;
   try {
     vec3 E(0.0f);
-    if (map->lookup(transformPoint(worldFromCurrent_, P), worldNormal(N), radius * worldFromCurrentScale_, &E.x,
+    if (map->lookup(transformPoint(toWorld_.points, P), worldNormal(N), radius * toWorld_.scale, &E.x,
                     surfaceIn(map->file().madeFrom(), group), acrossWalls))
       return E / kPi;
   } catch (const FileError& e) {

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "gi/atlas/world_from_current.h"
 #include "gi/point_file.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {

@@ -4,11 +4,11 @@
 #include <map>
 #include <tuple>
 
-#include "gi/atlas/world_from_current.h"
 #include "gi/frame/answers.h"
 #include "gi/frame/passes.h"
 #include "gi/frame/record_lookup.h"
 #include "gi/point_file.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
 

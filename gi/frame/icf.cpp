@@ -2,6 +2,7 @@
 
 #include "gi/frame/learnt_light.h"
 #include "gi/frame/record_fields.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/pack.h"
 #include "reyes/state_fields.h"
 
@@ -237,19 +238,17 @@ bool IcfFile::intact(std::string& error) const {
 PointCloud recordsOf(const IrradianceShot& shot) {
   PointCloud out;
   out.channels = {{"record", 1}, {"irradiance", 3}, {"closest", 1}, {"harmonicmean", 1}, {"noise", 1}};
-  const mat4 worldFromCamera = glm::inverse(shot.cameraFromWorld);
-  const mat3 normalsFromCamera = glm::transpose(mat3(shot.cameraFromWorld));
-  const float scale = lengthScale(worldFromCamera);
+  const WorldFromCurrent world(shot.cameraFromWorld);
   for (const PreparedCache& c : shot.caches)
     for (const IrradianceRecord& r : c.cache.records()) {
       const float data[] = {1,
                             r.light.E.x,
                             r.light.E.y,
                             r.light.E.z,
-                            std::min(scale * r.closest, kRiInfinity),
-                            std::min(scale * r.harmonicMean, kRiInfinity),
+                            std::min(world.scale * r.closest, kRiInfinity),
+                            std::min(world.scale * r.harmonicMean, kRiInfinity),
                             r.noise};
-      out.add(transformPoint(worldFromCamera, r.position), glm::normalize(normalsFromCamera * r.normal), 0, data);
+      out.add(transformPoint(world.points, r.position), glm::normalize(world.normals * r.normal), 0, data);
     }
   return out;
 }

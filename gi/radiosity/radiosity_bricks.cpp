@@ -3,8 +3,8 @@
 #include <array>
 #include <map>
 
-#include "gi/atlas/world_from_current.h"
 #include "gi/radiosity/bake.h"
+#include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
 #include "reyes/dice.h"
