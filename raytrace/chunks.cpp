@@ -1,7 +1,5 @@
 #include "raytrace/chunks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -33,11 +31,6 @@ int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 /// Grows a bound so that vertices that are diced later lie in it despite rounding, also that of Embree.
 Bound3 withRounding(const Bound3& b) {
   return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi))));
-}
-
-void reportNotFinite(const Object& o, Log& log) {
-  log.report(Severity::Warning, "trace-not-finite", o.where,
-             fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
 }
 
 }  // namespace

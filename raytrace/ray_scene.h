@@ -54,7 +54,7 @@ struct RayScene::Impl {
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
   mutable std::mutex startsMutex;
   mutable std::map<int, Starts> starts;
-  std::vector<float> displacementBounds;  ///< Indexed by group, where rays do not see the displacement.
+  std::vector<float> unseenDisplacement;  ///< Indexed by group: RayScene::unseenDisplacement().
 };
 
 }  // namespace tomales

@@ -48,8 +48,7 @@ class Tessellator {
         dice(scene_, object, patch, rect, 2 * nu, 2 * nv, {times_[static_cast<size_t>(o.group)], o.currentFromObject});
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) {
-      log_.report(Severity::Warning, "trace-not-finite", o.where,
-                  fmt::format("{} has points that are not finite: rays pass through that part", objectName(o)));
+      reportNotFinite(o, log_);
       return;
     }
     const auto first = static_cast<uint32_t>(out.P.size());
@@ -230,6 +229,11 @@ size_t CoarseGroup::bytes() const {
   for (const auto& later : laterP) vertices += later.capacity();
   return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) + latticeOfQuad.capacity() * sizeof(uint32_t) +
          lattices.capacity() * sizeof(Lattice);
+}
+
+void reportNotFinite(const Object& object, Log& log) {
+  log.report(Severity::Warning, "trace-not-finite", object.where,
+             fmt::format("{} has points that are not finite: rays pass through that part", objectName(object)));
 }
 
 bool raysNeed(const Attributes& a) {

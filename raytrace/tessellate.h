@@ -89,6 +89,8 @@ float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<b
 CoarseGroup tessellateObject(const Scene& scene, const Camera& camera, const ShadingSystem& shading, int object,
                              Log& log);
 
+void reportNotFinite(const Object& object, Log& log);  ///< Warns that rays pass through a part of the object.
+
 bool raysNeed(const Attributes& attributes);  ///< True if some ray may meet the object, or if a light is made of it.
 
 }  // namespace tomales

@@ -73,10 +73,10 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
       solids(s, groups, masks, log),
       volumes(s, shading),
       emitters(s, groups),
-      displacementBounds(groups.size(), 0.0f) {
+      unseenDisplacement(groups.size(), 0.0f) {
   for (const Object& o : scene.objects)
     if (!o.attributes->trace.displacements) {
-      float& bound = displacementBounds[static_cast<size_t>(o.group)];
+      float& bound = unseenDisplacement[static_cast<size_t>(o.group)];
       bound = std::max(bound, o.displacementBound);
     }
   for (const CoarseGroup& g : groups)
@@ -231,7 +231,7 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   // lists of hits within such a distance would hold much of the scene.
   const float apart = deviation + kChordShare * edgeLength;
   const float automatic =
-      kOffsetFactor * (impl_->displacementBounds[g] + (apart <= coarse.size ? apart : 0.0f)) + kOffsetEpsilon * scale;
+      kOffsetFactor * (impl_->unseenDisplacement[g] + (apart <= coarse.size ? apart : 0.0f)) + kOffsetEpsilon * scale;
   ray.group = group;
   ray.offset = impl_->hitList ? std::max(given.offset.value_or(automatic), 0.0f) : 0.0f;
   ray.bias = given.bias.value_or(kBias * scale);
@@ -288,6 +288,7 @@ vec3 RayScene::placeAt(int group, const vec3& atOpen, const vec3& drift, float t
 
 const Emitters& RayScene::emitters() const { return impl_->emitters; }
 
+float RayScene::unseenDisplacement(int group) const { return impl_->unseenDisplacement[static_cast<size_t>(group)]; }
 const Scene& RayScene::scene() const { return impl_->scene; }
 
 int RayScene::groupOf(const Hit& hit) const { return impl_->scene.objects[static_cast<size_t>(hit.object)].group; }

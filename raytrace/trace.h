@@ -57,6 +57,21 @@ struct Hit {
   vec3 atOpen{0};  ///< Position of the hit point when the shutter opens; the normals are those of that time too.
 };
 
+/// Returns the hit of a ray that meets a point P of a surface, for one that has met nothing but is to be shaded. The
+/// caller sets its t.
+inline Hit hitOn(int object, uint32_t patch, const vec2& uv, const vec3& P, const vec3& normal,
+                 const vec3& geometricNormal) {
+  Hit out;
+  out.object = object;
+  out.patch = patch;
+  out.u = uv.x;
+  out.v = uv.y;
+  out.normal = normal;
+  out.geometricNormal = geometricNormal;
+  out.atOpen = P;
+  return out;
+}
+
 /// The question about a list of hits, and its answers.
 struct HitAnswers {
   std::optional<HitMode> mode;       ///< Empty: the object's attributes decide for this kind of ray.
@@ -166,6 +181,9 @@ class RayScene {
 
   /// Returns the surfaces of area lights.
   const Emitters& emitters() const;
+
+  /// Returns the greatest distance from the surface of this group that rays see to the displaced one.
+  float unseenDisplacement(int group) const;
 
   const Scene& scene() const;
   int groupOf(const Hit& hit) const;  ///< Pre: something was hit.

@@ -134,13 +134,7 @@ EmissivePhotons::Start EmissivePhotons::startIn(const Surface& surface, size_t c
       glm::mix(glm::mix(mesh.N[q[0]], mesh.N[q[1]], uv.x), glm::mix(mesh.N[q[3]], mesh.N[q[2]], uv.x), uv.y);
   Start out;
   out.P = mesh.pointOn(quad, uv.x, uv.y);
-  out.hit.object = lattice.object;
-  out.hit.patch = lattice.patch;
-  out.hit.u = ofPatch.x;
-  out.hit.v = ofPatch.y;
-  out.hit.normal = normalizeOr(normal, geometric);
-  out.hit.geometricNormal = geometric;
-  out.hit.atOpen = out.P;
+  out.hit = hitOn(lattice.object, lattice.patch, ofPatch, out.P, normalizeOr(normal, geometric), geometric);
   out.normal = surface.back ? -geometric : geometric;
   out.area = mesh.keeps(quad, uv.x, uv.y) ? glm::length(spanned) / static_cast<float>(n * n) : 0.0f;
   return out;

@@ -28,12 +28,11 @@ PhotonSurfaces::PhotonSurfaces(const RayScene& rays, const ShadingSystem& shadin
 std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) const {
   if (!isDiffuse(group)) return Answer{};
   if (!shading_.reflectsEvenly(group)) return std::nullopt;
-  Hit hit;
+  const int object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject;
+  if (object < 0) return std::nullopt;  // no ray meets the group: its objects were dropped
+  const vec3 normal(0, 0, -1);
+  Hit hit = hitOn(object, 0, vec2(0.5f), vec3(0), normal, normal);
   hit.t = 1;
-  hit.object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject;
-  if (hit.object < 0) return std::nullopt;  // no ray meets the group: its objects were dropped
-  hit.u = hit.v = 0.5f;
-  hit.normal = hit.geometricNormal = {0, 0, -1};
   return ask({{vec3(0), vec3(0, 0, 1)}}, {hit}, {{}}).front();
 }
 

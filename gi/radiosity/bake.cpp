@@ -78,14 +78,8 @@ void sample(const RadiosityBake& bake, const Texel& texel, Samples& samples, Bak
     Ray ray{surface.P + texel.radius * out, -out};
     ray.radius = texel.radius;
     ray.group = object.group;
-    Hit hit;
+    Hit hit = hitOn(texel.object, texel.patch, uv, surface.P, n, n);
     hit.t = texel.radius;
-    hit.object = texel.object;
-    hit.patch = texel.patch;
-    hit.u = uv.x;
-    hit.v = uv.y;
-    hit.normal = hit.geometricNormal = n;
-    hit.atOpen = surface.P;
     samples.add(ray, hit, {texel.key, static_cast<uint32_t>(k)}, sum);
   }
 }
