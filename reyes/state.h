@@ -217,6 +217,8 @@ struct Attributes {
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all
+    /// Returns what a ray from here sees that asks for these sets.
+    const std::string& subsetFor(const std::string& asked) const { return asked.empty() ? subset : asked; }
     float tessellation = 1;
     TessellationMode rate = TessellationMode::Fixed;
     bool operator==(const Trace&) const = default;

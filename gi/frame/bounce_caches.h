@@ -8,6 +8,7 @@
 #include "gi/gather.h"
 #include "gi/gather/bounces_left.h"
 #include "gi/services.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -18,7 +19,7 @@ class BounceCaches {
     const std::atomic<bool>* cancelled;   ///< May be null.
     Checkpoint* kept;                     ///< May be null.
     std::span<const std::string> groups;  ///< The groups of lights whose shares are kept.
-    bool isCancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
+    bool isCancelled() const { return isSet(cancelled); }
   };
   /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
   /// where rays from `from` end, and where the rays of these records do. It ends early when another level would add

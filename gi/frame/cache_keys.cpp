@@ -50,7 +50,7 @@ CacheKey cacheKeyFor(const GiState& state, int group, const IndirectQuery& query
   key.gather.samples = std::max(1, settings.samples > 0 ? settings.samples : query.samples);
   key.gather.maxDistance = query.maxDistance;
   key.gather.seed = settings.seed;
-  key.gather.subset = query.subset.empty() ? attributes.trace.subset : query.subset;
+  key.gather.subset = attributes.trace.subsetFor(query.subset);
   key.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) {
     key.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored;

@@ -6,6 +6,7 @@
 
 #include "reyes/base/checksum.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -39,7 +40,7 @@ FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t gr
   FrameSurvey out{{}, std::vector<uint64_t>(groups)};
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
     if (!tile) return;
     Bound3 here;
     for (const ShadePoints& batch : tile->batches)

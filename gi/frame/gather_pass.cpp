@@ -15,6 +15,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/base/process.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -51,7 +52,6 @@ class GatherPass {
     progress_ = &progress;
     cancelled_ = cancelled;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
-    measureUnseenDisplacement();
     for (phase_ = 0; phase_ < kGatherPhases && !isCancelled(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
@@ -67,7 +67,7 @@ class GatherPass {
   const GatherSettings& gatherOf(size_t cache) const { return state_.caches[cache].key.gather; }
   bool isLight(size_t cache) const { return !gatherOf(cache).isOcclusion(); }
   bool isIndirect(size_t cache) const { return !gatherOf(cache).asked; }
-  bool isCancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
+  bool isCancelled() const { return isSet(cancelled_); }
 
   // Returns false if there is nothing to gather.
   bool prepareCaches() {
@@ -80,14 +80,6 @@ class GatherPass {
   }
 
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
-  void measureUnseenDisplacement() {
-    unseenDisplacementOfGroup_.assign(caches_.ofGroups().size(), 0.0f);
-    for (const Object& o : tools_->rays->scene().objects)
-      if (!o.attributes->trace.displacements) {
-        float& unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(o.group)];
-        unseenDisplacement = std::max(unseenDisplacement, o.displacementBound);
-      }
-  }
 
   void prepareBounces(const std::vector<Site>& sites) {
     int bounces = 1;
@@ -238,19 +230,15 @@ class GatherPass {
   }
 
   IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
-    const KnownLight known =
-        isLight(site.cache) ? KnownLight{&state_.learnt->spots, state_.hitRadiance.get()} : KnownLight{};
     GatherSettings settings = state_.caches[site.cache].key.gather;
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be
     // missed for good.
     if (sharesRays(site.cache) && find) settings.samples /= kRaysPerPilotRay;
     if (sharesRays(site.cache) && !find) point.key = 0;
-    const std::span<const std::string> groups =
-        isLight(site.cache) ? std::span<const std::string>(state_.groups) : std::span<const std::string>();
-    IrradianceRecord record =
-        gather(*tools_->rays, *tools_->shading, point, settings, known, state_.stats, find, groups);
-    record.unseenDisplacement = unseenDisplacementOfGroup_[static_cast<size_t>(site.point.group)];
+    IrradianceRecord record = gather(*tools_->rays, *tools_->shading, point, settings, knownLightFor(state_, settings),
+                                     state_.stats, find, shareGroupsFor(state_, settings));
+    record.unseenDisplacement = tools_->rays->unseenDisplacement(site.point.group);
     return record;
   }
 
@@ -264,7 +252,6 @@ class GatherPass {
   RecordSlices slices_;
   const RayTools* tools_ = nullptr;
   FrameCaches caches_;
-  std::vector<float> unseenDisplacementOfGroup_;  ///< Displacement that rays do not see, in current space.
   std::optional<GatherTiles> gatherTiles_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;

@@ -7,6 +7,7 @@
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -45,7 +46,7 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
   std::vector<std::vector<Example>> examples(state.scene.groups.size());
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
     if (!tile) return;
     const std::lock_guard lock(merging);
     for (const ShadePoints& batch : tile->batches)

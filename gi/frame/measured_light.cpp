@@ -92,7 +92,7 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
   context.direct = false;
   context.purpose = Purpose::Sketch;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = cancelled && cancelled->load(std::memory_order_relaxed) ? nullptr : tiles(t);
+    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
     if (!tile) return;
     ShadedPoints out;
     for (const ShadePoints& batch : tile->batches) state.shading.shade(batch, context, out);

@@ -153,7 +153,7 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
 }
 
 RayFilter filterOf(const RayScene& rays, const RayQuery& query, const Attributes& own) {
-  return {rays.groupsIn(query.subset.empty() ? own.trace.subset : query.subset, query.excludeSubset), query.sides};
+  return {rays.groupsIn(own.trace.subsetFor(query.subset), query.excludeSubset), query.sides};
 }
 
 void setBias(const RayQuery& query, Ray& ray) {

@@ -65,7 +65,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           nameOf(settings.asked)};
   static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
-  const std::span<const std::string> groups = settings.isOcclusion() ? std::span<const std::string>() : state.groups;
+  const std::span<const std::string> groups = shareGroupsFor(state, settings);
   const auto mixed = [&](IndirectAnswer answer, const std::vector<vec3>& gains) {
     return groups.empty() || gains.empty() ? answer : withGains(std::move(answer), gains);
   };
@@ -75,10 +75,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
       return mixed(it->second, state.gains);
   const RayTools* tools = gatherTools(state);
   if (!tools) return {vec3(settings.isOcclusion() ? 1.0f : 0.0f), {point.normal, point.normal, point.normal}, {}};
-  const KnownLight known =
-      settings.isOcclusion() ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
-  const IrradianceRecord record =
-      gather(*tools->rays, *tools->shading, point, settings, known, state.stats, nullptr, groups);
+  const IrradianceRecord record = gather(*tools->rays, *tools->shading, point, settings, knownLightFor(state, settings),
+                                         state.stats, nullptr, groups);
   IndirectAnswer answer{record.light.E, {record.dominant[0], record.dominant[1], record.dominant[2]}, {}};
   for (const IrradianceExpansion& share : record.shares) answer.shares.push_back(share.E);
   if (answers && answers->recording) answers->indirect[name] = answer;

@@ -38,8 +38,8 @@ class PathBatches {
         N_(N),
         maxDistance_(query.maxDistance),
         context_(hitContext) {
-    const std::string& own = state.scene.groups[static_cast<size_t>(points.group())].attributes->trace.subset;
-    filter_.groups = tools.rays->groupsIn(query.subset.empty() ? own : query.subset, "");
+    const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
+    filter_.groups = tools.rays->groupsIn(own.trace.subsetFor(query.subset), "");
   }
 
   void add(PathSum& sum, int paths) {

@@ -50,6 +50,15 @@ struct GiState {
   std::vector<std::vector<IrradianceExpansion>> redrawn{};
 };
 
+/// Returns what is known of the light that a record with these settings gathers; nothing for occlusion.
+inline KnownLight knownLightFor(const GiState& state, const GatherSettings& settings) {
+  return settings.isOcclusion() ? KnownLight{} : KnownLight{&state.learnt->spots, state.hitRadiance.get()};
+}
+/// Returns the groups of lights whose shares such a record holds; none for occlusion.
+inline std::span<const std::string> shareGroupsFor(const GiState& state, const GatherSettings& settings) {
+  return settings.isOcclusion() ? std::span<const std::string>() : std::span<const std::string>(state.groups);
+}
+
 /// Returns what gathering needs, atlas and radiosity maps included; null in the case that RaySource describes.
 const RayTools* gatherTools(const GiState&);
 

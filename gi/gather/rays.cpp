@@ -186,8 +186,8 @@ void GatherRays::answer(const ShadeContext& context) {
 
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings) {
   const std::string& asked = settings.asked ? settings.asked->subset : settings.subset;
-  const std::string& own = rays.scene().groups[static_cast<size_t>(group)].attributes->trace.subset;
-  return rays.groupsIn(asked.empty() ? own : asked, settings.asked ? settings.asked->excludeSubset : "");
+  const Attributes& own = *rays.scene().groups[static_cast<size_t>(group)].attributes;
+  return rays.groupsIn(own.trace.subsetFor(asked), settings.asked ? settings.asked->excludeSubset : "");
 }
 
 }  // namespace tomales

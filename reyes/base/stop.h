@@ -10,6 +10,11 @@ inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed);
 /// Asks for a stop. With `wanted` false it takes the wish back, as tests do.
 void requestStop(bool wanted = true);
 
+/// Tells whether the owner of such a flag wishes that work ends; null: nobody can.
+inline bool isSet(const std::atomic<bool>* cancelled) {
+  return cancelled && cancelled->load(std::memory_order_relaxed);
+}
+
 /// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that no handler
 /// reports it as an error.
 struct Stopped {};

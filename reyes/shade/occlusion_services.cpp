@@ -28,7 +28,7 @@ HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const R
                     .radiance = radiance,
                     .mode = radiance ? rays.mode : std::nullopt,
                     .diffuseLimit = radiance ? a.trace.maxDiffuseDepth : 0,
-                    .subset = rays.subset.empty() ? a.trace.subset : rays.subset,
+                    .subset = a.trace.subsetFor(rays.subset),
                     .excludeSubset = rays.excludeSubset,
                     .sides = rays.sides};
   if (q.maxVariation < 0)
