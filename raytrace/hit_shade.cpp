@@ -115,10 +115,10 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
 
 /// Writes the outputs of a hit. Where a shader ran, `shaded` has its values, as ShadeContext::told lists them.
 void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
-          HitAnswers& answers) {
+          const HitQuestion& question, const HitAnswers& answers) {
   size_t first = 0;
-  for (const RayOutput& output : answers.outputs) {
-    const auto put = [&](int k) -> float& { return output.c[k][answers.elements[hit]]; };
+  for (const RayOutput& output : question.outputs) {
+    const auto put = [&](int k) -> float& { return output.c[k][question.elements[hit]]; };
     vec3 value(0);
     if (readOutput(group, points, i, output.name, answers, hit, value)) {
       for (int k = 0; k < output.floats; ++k) put(k) = value[k];
@@ -135,21 +135,22 @@ void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hi
 void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                          const std::vector<SampleName>& names, const ShadingSystem& shading,
                          const ShadeContext& context, std::vector<vec3>& radiance) const {
+  HitQuestion question;
+  question.mode = HitMode::Shader;
   HitAnswers answers;
-  answers.mode = HitMode::Shader;
   std::swap(answers.color, radiance);
-  shadeHits(rays, hits, names, shading, context, answers);
+  shadeHits(rays, hits, names, shading, context, question, answers);
   std::swap(answers.color, radiance);
 }
 
 void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                          const std::vector<SampleName>& names, const ShadingSystem& shading,
-                         const ShadeContext& context, HitAnswers& answers) const {
+                         const ShadeContext& context, const HitQuestion& question, HitAnswers& answers) const {
   const Scene& scene = impl_->scene;
   ShadeContext hitContext = context;
   hitContext.answers = nullptr;
   hitContext.variables = false;  // these belong to the points that the rays leave
-  hitContext.told = answers.outputs.empty() ? nullptr : &answers.outputs;
+  hitContext.told = question.outputs.empty() ? nullptr : &question.outputs;
   answers.color.assign(hits.size(), vec3(0));
   answers.opacity.assign(hits.size(), vec3(0));
   std::vector<int> groupOf;
@@ -166,7 +167,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
     points.reserve(static_cast<int>(last - first));
     for (size_t k = first; k < last; ++k) addPoint(*impl_, rays[order[k]], hits[order[k]], names[order[k]], points);
     const bool shades =
-        answers.wantsColor && answers.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
+        question.wantsColor && question.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     emission.clear();
     if (!diffuse && context.seesAreaLights) shading.areaLightRadiance(points, emission, context);
@@ -177,7 +178,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
       const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
       answers.opacity[i] = opacity;
       answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k - first];
-      tell(group, points, p, i, shades ? &shaded : nullptr, answers);
+      tell(group, points, p, i, shades ? &shaded : nullptr, question, answers);
     }
   }
 }

@@ -72,12 +72,16 @@ inline Hit hitOn(int object, uint32_t patch, const vec2& uv, const vec3& P, cons
   return out;
 }
 
-/// The question about a list of hits, and its answers.
+/// What is asked about a list of hits.
+struct HitQuestion {
+  std::optional<HitMode> mode;     ///< Empty: the object's attributes decide for this kind of ray.
+  bool wantsColor = true;          ///< False: hits are not shaded.
+  std::vector<RayOutput> outputs;  ///< Further values, which are written there. Elements of misses are left alone.
+  std::vector<int> elements;       ///< The element of the outputs that belongs to each hit.
+};
+
+/// The light of a list of hits.
 struct HitAnswers {
-  std::optional<HitMode> mode;       ///< Empty: the object's attributes decide for this kind of ray.
-  bool wantsColor = true;            ///< False: hits are not shaded.
-  std::vector<RayOutput> outputs;    ///< Element i belongs to hit i; elements of misses are left alone.
-  std::vector<int> elements;         ///< The element of the outputs that belongs to each hit.
   std::vector<vec3> color, opacity;  ///< Zero for misses.
 };
 
@@ -161,7 +165,8 @@ class RayScene {
                  const ShadingSystem& shading, const ShadeContext& context, std::vector<vec3>& radiance) const;
   /// The same, with all other outputs that hits provide.
   void shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
-                 const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const;
+                 const ShadingSystem& shading, const ShadeContext& context, const HitQuestion& question,
+                 HitAnswers& answers) const;
 
   /// Changes the answers by the volume between each hit and the surface from which its ray starts. That surface is the
   /// hit `left` of an earlier ray `came`. The volume is the Interior or Exterior of its group, by the side on which the

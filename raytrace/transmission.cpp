@@ -86,7 +86,7 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
   ShadeContext inside = context;
   inside.kind = RayKind::Transmission;
   HitAnswers answers;
-  shadeHits(asked.rays, asked.hits, asked.names, shading, inside, answers);
+  shadeHits(asked.rays, asked.hits, asked.names, shading, inside, HitQuestion(), answers);
   for (size_t k = 0; k < asked.hits.size(); ++k)
     clear[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
   return clear;

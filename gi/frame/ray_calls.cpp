@@ -33,12 +33,12 @@ class ShaderRays {
     for (int layer = 0; layer < (wantsColor ? kMostLayers : 1) && !layers_.rays.empty(); ++layer) {
       meet();
       setLeaves();
-      answers_.mode = query_.mode;
-      answers_.wantsColor = wantsColor || asksForSurface();
-      answers_.elements = layers_.elements;
-      answers_.outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{};
-      if (answers_.wantsColor || !answers_.outputs.empty())
-        tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers_);
+      const HitQuestion question{.mode = query_.mode,
+                                 .wantsColor = wantsColor || asksForSurface(),
+                                 .outputs = layer == 0 ? result_.outputs : std::vector<RayOutput>{},
+                                 .elements = layers_.elements};
+      if (question.wantsColor || !question.outputs.empty())
+        tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, question, answers_);
       if (layer == 0)
         setDistances();  // the shader's own surface accounts for the volume before the first hit
       else

@@ -74,12 +74,13 @@ class PathBatches {
   }
 
   void flush() {
+    HitQuestion question;
+    question.mode = HitMode::Shader;
     HitAnswers answers;
-    answers.mode = HitMode::Shader;
     for (int layer = 0; layer < kMostLayers && !layers_.rays.empty() && !stopRequested(); ++layer) {
       state_.stats.rays.hitlistAdjusted += layers_.meet(*tools_.rays, kMaskDiffuse, hits_);
       state_.stats.rays.reference += static_cast<int64_t>(layers_.rays.size());
-      tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, answers);
+      tools_.rays->shadeHits(layers_.rays, hits_, layers_.names, *tools_.shading, context_, question, answers);
       tools_.rays->throughVolumes(layers_.rays, hits_, layers_.names, kMaskDiffuse, *tools_.shading, context_, answers);
       layers_.goOn(*tools_.rays, hits_, answers, 1, [&](int path, const vec3& radiance, const vec3&) {
         const auto p = static_cast<size_t>(path);

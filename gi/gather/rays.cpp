@@ -11,6 +11,7 @@ struct GatherRays::Scratch {
   Surroundings surroundings;
   std::vector<Hit> hits, unknown;  ///< unknown: the hits whose radiance is not known.
   std::vector<std::pair<size_t, vec3>> mapped;
+  HitQuestion question;
   HitAnswers answers, share;
   std::vector<vec3> glow;  ///< The colours of hits that no light lights.
   std::vector<vec3> left;  ///< The radiance that the groups so far have not brought.
@@ -103,7 +104,7 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   context.highlights = highlightsOfHits(settings_.mirrored);
   // Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
-  scratch_.answers.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
+  scratch_.question.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {
     meet(stats, layer == 0 ? first : nullptr);
     answer(context);
@@ -121,14 +122,14 @@ void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
   if (groups_.empty()) return;
   ShadeContext alone = context;
   HitAnswers& share = scratch_.share;
-  share.mode = scratch_.answers.mode;
   std::vector<vec3>& left = scratch_.left;
   left = scratch_.answers.color;
   for (size_t g = 0; g < groups_.size(); ++g) {
     const bool isLast = g > 0 && g + 1 == groups_.size();
     alone.lights = &groups_[g];
     if (!isLast) {
-      scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, share);
+      scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, scratch_.question,
+                       share);
       scene_.throughVolumes(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, kMaskDiffuse, shading_, alone,
                             share);
     }
@@ -165,7 +166,8 @@ void GatherRays::answer(const ShadeContext& context) {
                           scratch_.answers);
   };
   if (!known_) {
-    scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.answers);
+    scene_.shadeHits(rays, scratch_.hits, scratch_.layers.names, shading_, context, scratch_.question,
+                     scratch_.answers);
     return through();
   }
   scratch_.unknown = scratch_.hits;
@@ -176,7 +178,8 @@ void GatherRays::answer(const ShadeContext& context) {
       scratch_.unknown[r].object = -1;
       scratch_.mapped.emplace_back(r, radiance);
     }
-  scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.answers);
+  scene_.shadeHits(rays, scratch_.unknown, scratch_.layers.names, shading_, context, scratch_.question,
+                   scratch_.answers);
   for (const auto& [r, L] : scratch_.mapped) {
     scratch_.answers.color[r] = L;
     scratch_.answers.opacity[r] = vec3(1);

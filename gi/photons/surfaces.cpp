@@ -41,9 +41,10 @@ std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& 
                                                         const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};
   context.light = Illumination::Unit;
+  HitQuestion question;
+  question.mode = HitMode::Shader;
   HitAnswers lit;
-  lit.mode = HitMode::Shader;
-  rays_.shadeHits(rays, hits, names, shading_, context, lit);
+  rays_.shadeHits(rays, hits, names, shading_, context, question, lit);
   const auto emits = [&](const Hit& h) {
     return shading_.surfaceEmits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
   };

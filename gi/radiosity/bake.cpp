@@ -16,7 +16,7 @@ class Samples {
   explicit Samples(const RadiosityBake& bake)
       : bake_(bake), context_{RayKind::Diffuse, 1, bake.settings.seed, 1, false} {
     context_.diffuseLimit = 0;  // the same as where gather rays hit
-    answers_.mode = HitMode::Shader;
+    question_.mode = HitMode::Shader;
   }
 
   /// Adds a sample: a ray that sees a point of the texel. If the colour that it brings is finite, its share goes to
@@ -29,7 +29,7 @@ class Samples {
     if (rays_.size() == kSamplesPerBatch) flush();
   }
   void flush() {
-    bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, answers_);
+    bake_.rays.shadeHits(rays_, hits_, names_, bake_.shading, context_, question_, answers_);
     constexpr float share = 1.0f / (kSamples * kSamples);
     for (size_t i = 0; i < sums_.size(); ++i)
       if (isFinite(answers_.color[i])) {
@@ -49,6 +49,7 @@ class Samples {
   std::vector<Hit> hits_;
   std::vector<SampleName> names_;
   std::vector<BakedTexel*> sums_;
+  HitQuestion question_;
   HitAnswers answers_;
 };
 
