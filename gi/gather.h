@@ -65,11 +65,6 @@ const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, cons
 /// Returns the radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }
 
-/// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the
-/// normal, so a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other
-/// objects.
-inline float slantedOffset(float offset, float cosine) { return offset / std::max(cosine, 0.25f); }
-
 /// Cells of a stratified cosine-weighted hemisphere around +z: M rings of equal projected area by N sectors. Cell (j,
 /// k) is sample j * N + k.
 struct HemisphereCells {

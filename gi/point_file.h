@@ -57,9 +57,6 @@ class PointFile {
   std::vector<Bound3> bounds_;
 };
 
-/// Throws FileError unless it has a channel "power" or "indirectpower" of three floats.
-void requirePhotons(const PointFile& file);
-
 /// Writes a cloud, sorted along a Morton curve, so that chunks are compact in space. Throws FileError.
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom = {});
 

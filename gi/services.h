@@ -5,7 +5,7 @@
 #pragma once
 #include "gi/atlas.h"
 #include "gi/gather.h"
-#include "gi/gather/hit_radiance.h"
+#include "gi/hit_radiance.h"
 #include "gi/method.h"
 #include "raytrace/emitters.h"
 #include "reyes/base/checkpoint.h"

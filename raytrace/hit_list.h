@@ -1,6 +1,7 @@
 // Noun and pure functions: the intersections that one ray recorded around its origin, and their evaluation after "An
 // Approximate Global Illumination System", section 4.3. It does not know Embree. Threads: pure.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,11 @@ using HitList = std::vector<PolygonHit>;
 constexpr float kMergeShare = 0.05f;
 inline float mergeDistance(float offset) { return kMergeShare * offset; }
 inline float recordingWindow(float offset) { return (1 + kMergeShare) * offset; }
+
+/// Hit-list distance of a ray at this cosine to the normal. Coarse and fine surface are up to `offset` apart along the
+/// normal, so a slanted ray meets the coarse one later; the floor keeps grazing rays from reaching through other
+/// objects.
+inline float slantedOffset(float offset, float cosine) { return offset / std::max(cosine, 0.25f); }
 
 /// Sorts by t. The rest of the order makes results independent of the traversal.
 void sortAlongRay(HitList& list);

@@ -3,9 +3,9 @@
 // occlusion the share that is not covered.
 #pragma once
 #include "gi/gather.h"
-#include "gi/gather/hit_radiance.h"
 #include "gi/gather/polygon_start.h"
 #include "gi/gather/ray_strata.h"
+#include "gi/hit_radiance.h"
 
 namespace tomales {
 
@@ -29,7 +29,6 @@ class GatherRays {
              const GatherSettings& settings, const HitRadiance* known, std::span<const std::string> groups,
              size_t count, uint32_t key);
 
-  vec3 toWorld(const vec3& local) const;
   vec3 toLocal(const vec3& direction) const;
   const vec3& tangent() const { return tangent_; }
   const vec3& bitangent() const { return bitangent_; }
@@ -46,6 +45,7 @@ class GatherRays {
  private:
   struct Scratch;
   static Scratch& emptyScratch();
+  vec3 toWorld(const vec3& local) const;
   void uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* first);
   void shade(Stats& stats, SeenLight& seen, FirstHits* first);
   void shadeShares(const ShadeContext& context, SeenLight& seen);

@@ -1,5 +1,7 @@
 #include "gi/photons/irradiance.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <utility>
 
@@ -166,6 +168,11 @@ Estimate estimateInMedium(const PhotonTree& tree, int power, uint32_t at, const 
 }
 
 }  // namespace
+
+void requirePhotons(const PointFile& file) {
+  if (offsetOf(file.channels(), kPower, 3) < 0 && offsetOf(file.channels(), kIndirectPower, 3) < 0)
+    throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\" of three floats", file.path()));
+}
 
 float coveredShareOfBall(float centroidDistance) {
   // a: height of the plane over the centre, in radii. The centroid moves outwards as less of the ball is left.

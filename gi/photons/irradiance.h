@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "gi/point_cloud.h"
+#include "gi/point_file.h"
 
 namespace tomales {
 
@@ -28,6 +28,8 @@ inline int powerOffset(const std::vector<CloudChannel>& channels) {
   return std::max(
       {offsetOf(channels, kPathPower, 3), offsetOf(channels, kPower, 3), offsetOf(channels, kIndirectPower, 3)});
 }
+/// Throws FileError unless a file has one of these channels of photons on surfaces.
+void requirePhotons(const PointFile& file);
 inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Sums over a part of the picture.

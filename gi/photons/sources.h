@@ -15,7 +15,6 @@ class PhotonSources {
     std::unique_ptr<const PhotonSource> source;
     size_t count;  ///< Photons of settings().emit that are its share by power, at least one.
   };
-  const std::vector<Sent>& sources() const { return sources_; }
   double power() const { return power_; }  ///< Power of all sources together, in W.
   /// Photons `first` .. `end` - 1 of a source.
   struct Span {

@@ -117,11 +117,6 @@ PointCloud PointFile::readAll() const {
   return cloud;
 }
 
-void requirePhotons(const PointFile& file) {
-  if (offsetOf(file.channels(), "power", 3) < 0 && offsetOf(file.channels(), "indirectpower", 3) < 0)
-    throw FileError(fmt::format("\"{}\" is no photon map: it has no channel \"power\" of three floats", file.path()));
-}
-
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom) {
   const Bound3 bound = cloud.bound();
   const float scale = static_cast<float>((1 << 21) - 1) / std::max(maxComponent(bound.size()), 1e-30f);

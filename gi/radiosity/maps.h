@@ -8,7 +8,7 @@
 #pragma once
 #include <functional>
 
-#include "gi/gather/hit_radiance.h"
+#include "gi/hit_radiance.h"
 #include "reyes/base/checkpoint.h"
 #include "reyes/camera.h"
 
