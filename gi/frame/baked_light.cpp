@@ -4,8 +4,8 @@
 #include <map>
 #include <tuple>
 
-#include "gi/frame/answers.h"
-#include "gi/frame/passes.h"
+#include "gi/frame/baked_light.h"
+#include "gi/frame/indirect.h"
 #include "gi/frame/record_lookup.h"
 #include "gi/point_file.h"
 #include "gi/world_from_current.h"

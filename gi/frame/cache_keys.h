@@ -1,5 +1,5 @@
-// Private to gi: which settings an indirect light or a question about a hemisphere is gathered with, and which cache
-// answers it.
+// Private to gi: which settings an indirect light is gathered with, and which cache answers it or a question about a
+// hemisphere. Lengths: current space.
 #pragma once
 #include "gi/frame/state.h"
 
@@ -8,8 +8,6 @@ namespace tomales {
 /// Returns the settings of an indirect light as this group sees them: the command line wins over the group's
 /// attributes, and those over the light.
 CacheKey cacheKeyFor(const GiState&, int group, const IndirectQuery&);
-
-CacheKey cacheKeyFor(const GiState&, int group, const HemisphereQuery&);
 
 /// Finds the cache that serves a key, if there is one. Records that were given serve even where a light or an option
 /// has since been changed: preferably those whose key differs in its rays alone, else those for the same question.

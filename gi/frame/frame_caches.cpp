@@ -4,7 +4,7 @@
 
 #include "gi/frame/cache_keys.h"
 #include "gi/frame/frame_survey.h"
-#include "gi/frame/passes.h"
+#include "gi/frame/hemisphere_queries.h"
 
 namespace tomales {
 namespace {

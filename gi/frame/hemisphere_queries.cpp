@@ -1,8 +1,7 @@
 // Answers occlusion() and indirectdiffuse() of shaders from records, as the irradiance cache does. For occlusion()
 // these hold the uncovered share of the hemisphere instead of light.
-#include "gi/frame/answers.h"
+#include "gi/frame/hemisphere_queries.h"
 #include "gi/frame/cache_keys.h"
-#include "gi/frame/passes.h"
 #include "gi/frame/recall.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/random_streams.h"
@@ -56,10 +55,6 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
 }
 
 }  // namespace
-
-bool keepsHemispheres(const GiSettings& settings) {
-  return settings.mode != GiMode::Reference && settings.maxError != 0;
-}
 
 void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileReader& tiles,
                             const std::atomic<bool>* cancelled) {

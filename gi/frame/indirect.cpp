@@ -1,7 +1,8 @@
 // indirectDiffuse() from the irradiance cache, and its substitutes where the cache has nothing.
-#include "gi/frame/answers.h"
+#include "gi/frame/indirect.h"
 #include "gi/frame/cache_keys.h"
 #include "gi/frame/recall.h"
+#include "gi/frame/reference.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 

@@ -1,8 +1,8 @@
 #include "gi/frame/measured_light.h"
 
-#include "gi/frame/answers.h"
 #include "gi/frame/gather_places.h"
-#include "gi/frame/passes.h"
+#include "gi/frame/indirect.h"
+#include "gi/frame/state.h"
 #include "gi/photons/sources.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/parallel.h"

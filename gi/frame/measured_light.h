@@ -11,6 +11,8 @@
 
 namespace tomales {
 
+struct GiState;
+
 class MeasuredLight {
  public:
   /// Returns true until measure(). Threads: note() may be called concurrently.
@@ -33,5 +35,16 @@ class MeasuredLight {
   std::vector<MeasurementPoint> points_;
   std::unique_ptr<PhotonMeasurement> measurement_;
 };
+
+/// Notes where shaders ask for indirect light, and counts photons there, if state.passes says how many.
+void measureLight(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
+                  const std::atomic<bool>* cancelled);
+/// Notes the places while measureLight() asks for them, and answers that they are dark. Returns false at any other
+/// time.
+bool noteMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
+                  const ShadeContext&, const IndirectResult& out);
+/// Adds what has been measured to E, where the eye looks and by mirrors and glass.
+void addMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
+                 const ShadeContext&, const IndirectResult& out);
 
 }  // namespace tomales

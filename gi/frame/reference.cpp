@@ -1,8 +1,9 @@
 // Indirect light by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths from
 // hits where the atlas cannot tell.
-#include "gi/frame/answers.h"
+#include "gi/frame/reference.h"
 #include "gi/frame/cache_keys.h"
 #include "gi/frame/gather_places.h"
+#include "gi/frame/indirect.h"
 #include "gi/frame/ray_start.h"
 #include "gi/gather/layers.h"
 #include "gi/gather/polygon_start.h"

@@ -3,12 +3,15 @@
 #include <numeric>
 #include <utility>
 
-#include "gi/frame/answers.h"
+#include "gi/frame/baked_light.h"
 #include "gi/frame/cache_keys.h"
-#include "gi/frame/passes.h"
+#include "gi/frame/gather_pass.h"
+#include "gi/frame/hemisphere_queries.h"
+#include "gi/frame/indirect.h"
 #include "gi/frame/ray_calls.h"
 #include "gi/frame/ray_start.h"
 #include "gi/frame/record_lookup.h"
+#include "gi/frame/reference.h"
 
 namespace tomales {
 namespace {
@@ -17,6 +20,10 @@ namespace {
 constexpr int kTimesOfLight = 16;
 
 }  // namespace
+
+bool keepsHemispheres(const GiSettings& settings) {
+  return settings.mode != GiMode::Reference && settings.maxError != 0;
+}
 
 const RayTools* gatherTools(const GiState& state) {
   const RayTools* tools = state.rays();

@@ -3,8 +3,8 @@
 // gather rays see. Space: current. Power: W. Threads: const members may be called concurrently.
 #pragma once
 #include "gi/photons/emission.h"
-#include "reyes/base/distribution.h"
 #include "raytrace/tessellate.h"
+#include "reyes/base/distribution.h"
 
 namespace tomales {
 
