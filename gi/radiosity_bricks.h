@@ -1,7 +1,7 @@
 // Composer: single-bounce light from brick maps instead of photons (Christensen and Batali 2004, section 6.3). The
 // radiosity by direct light is baked as points all over the surfaces, visible or not, as finely as in radiosity maps;
 // brick maps of the points answer gather rays.
-//   FOLDER/radiosity/NAME.ptc  ->  FOLDER/radiosity/NAME.bkm      NAME as in gi/atlas.h
+//   FOLDER/radiosity/NAME.ptc  ->  FOLDER/radiosity/NAME.bkm      NAME as in gi/atlas_files.h
 // The channel "radiosity" holds pi L in W/m2, in world space. The camera of the frame that first bakes decides how fine
 // the points are. Threads: lookup() may be called concurrently.
 #pragma once

@@ -2,7 +2,7 @@
 // beyond the limits. Each warning names an object of the worst map, with file and line. The result does not depend on
 // threads.
 #pragma once
-#include "gi/atlas.h"
+#include "gi/atlas_files.h"
 
 namespace tomales {
 

@@ -1,6 +1,6 @@
 // Private to gi: sorts stored photons into the files of their maps. Space: world. Threads: plain object.
 #pragma once
-#include "gi/atlas.h"
+#include "gi/atlas_files.h"
 #include "gi/point_file.h"
 #include "gi/world_from_current.h"
 

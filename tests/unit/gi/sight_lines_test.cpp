@@ -1,4 +1,4 @@
-#include "gi/atlas/thin_walls.h"
+#include "gi/atlas/sight_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Scene floorAndSolidWall() {
   return std::move(b.scene);
 }
 
-TEST(ThinWalls, ASolidWallStandsOnTheFloorThatGoesOnBehindIt) {
+TEST(SightLines, ASolidWallStandsOnTheFloorThatGoesOnBehindIt) {
   constexpr float kReach = 0.26f, kFromWall = 0.13f;
   const World world(floorAndSolidWall());
   const SightLines lines = sightAlongSurfaces(world.rays)({0.05f + kFromWall, 0, 3}, {0, 1, 0}, kReach);
@@ -28,7 +28,7 @@ TEST(ThinWalls, ASolidWallStandsOnTheFloorThatGoesOnBehindIt) {
   EXPECT_EQ(*std::ranges::max_element(lines), kReach);
 }
 
-TEST(ThinWalls, AWallBehindWhichNothingIsPartsNoLight) {
+TEST(SightLines, AWallBehindWhichNothingIsPartsNoLight) {
   SceneBuilder b;
   b.quad({0.05f, 0, 1}, {0.05f, 0, 5}, {3, 0, 5}, {3, 0, 1}, vec3(0.7f));
   b.quad({0.05f, 0, 1}, {0.05f, 1, 1}, {0.05f, 1, 5}, {0.05f, 0, 5}, vec3(0.5f));

@@ -1,9 +1,11 @@
-#include "gi/atlas/thin_walls.h"
+#include "gi/atlas/leaks.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
+#include "gi/atlas/sight_lines.h"
+#include "gi/brick_map.h"
 #include "gi/point_file.h"
 #include "gi/world_from_current.h"
 #include "reyes/base/parallel.h"
@@ -18,10 +20,8 @@ constexpr int kDirections = 8;
 /// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate is made of
 /// fifty photons and stands for the place of four, with disks that overlap.
 constexpr float kReach = 2.2f;
-constexpr float kLift = 0.1f;  ///< Height of the rays over the surface, in reaches.
 /// A place leaks if there is at least so many times as much light behind the wall. Less makes a smudge at an edge.
 constexpr float kMuchMore = 8;
-constexpr float kStands = 0.5f;      ///< Cosine between the normals of a wall and of what it stands on, at most.
 constexpr double kMostArea = 0.002;  ///< The share of all area that may leak without a warning.
 
 /// A place where an estimate was made, in world space.
@@ -53,10 +53,10 @@ std::vector<Place> placesOf(const PointFile& file, size_t count) {
   return out;
 }
 
-class WallTest {
+class LeakTest {
  public:
   /// `surfaces`: the numbers of the groups in this map; -1: those of other maps.
-  WallTest(const RayScene& rays, const BrickMap& map, const std::vector<int>& surfaces)
+  LeakTest(const RayScene& rays, const BrickMap& map, const std::vector<int>& surfaces)
       : rays_(rays), map_(map), surfaces_(surfaces), world_(rays.scene()), current_(glm::inverse(world_.points)) {}
 
   /// Returns the object through which light comes to the place; -1: none.
@@ -66,14 +66,14 @@ class WallTest {
     if (N == vec3(0) || !(reach > 0)) return -1;
     vec3 tangent, bitangent;
     orthonormalBasis(N, tangent, bitangent);
-    const vec3 start = P + kLift * reach * N;
+    const vec3 start = P + kSightLift * reach * N;
     for (int k = 0; k < kDirections; ++k) {
       const float angle = 2 * kPi * static_cast<float>(k) / kDirections;
       const vec3 along = std::cos(angle) * tangent + std::sin(angle) * bitangent;
       const Hit wall = hitOf(start, along, reach);
       if (wall.object < 0 || hitOf(start, -along, reach).object >= 0) continue;
       const vec3 beyond = start + reach * along;
-      const Hit floor = hitOf(beyond, -N, 2 * kLift * reach);
+      const Hit floor = hitOf(beyond, -N, 2 * kSightLift * reach);
       // An estimate hardly counts photons of other surfaces.
       if (floor.object < 0 || surfaces_[static_cast<size_t>(rays_.groupOf(floor))] != place.surface) continue;
       const float here = std::min(light(P, place), light(P - reach * along, place));
@@ -103,43 +103,7 @@ class WallTest {
 
 }  // namespace
 
-SightAlongSurface sightAlongSurfaces(const RayScene& rays) {
-  return [&rays, world = WorldFromCurrent(rays.scene()), current = rays.scene().cameraFromWorldAtOpen()](
-             const vec3& worldP, const vec3& worldN, float worldReach) {
-    const vec3 P = transformPoint(current, worldP), N = normalizeOr(world.currentNormals * worldN, vec3(0, 0, 1));
-    const float reach = worldReach / world.scale, lift = kLift * reach;
-    const auto hitOf = [&](const vec3& from, const vec3& direction, float tMax) {
-      Ray ray{from, direction};
-      ray.tMax = tMax;
-      return rays.closest(ray, kMaskPhoton);
-    };
-    const auto groupBelow = [&](const vec3& from) {
-      const Hit hit = hitOf(from, -N, 2 * lift);
-      return hit.object < 0 ? -1 : rays.groupOf(hit);
-    };
-    const vec3 start = P + lift * N;
-    const int here = groupBelow(start);
-    vec3 tangent, bitangent;
-    orthonormalBasis(worldN, tangent, bitangent);
-    SightLines out;
-    for (size_t k = 0; k < kSightLines; ++k) {
-      out[k] = worldReach;
-      const float angle = 2 * kPi * static_cast<float>(k) / kSightLines;
-      const vec3 along =
-          normalizeOr(transformVector(current, std::cos(angle) * tangent + std::sin(angle) * bitangent), N);
-      const Hit wall = hitOf(start, along, reach);
-      if (wall.object < 0 || std::abs(dot(wall.geometricNormal, N)) > kStands) continue;
-      const auto goesOnAt = [&](float t) { return here >= 0 && groupBelow(start + t * along) == here; };
-      // Two places behind the wall are tried, because the underside of a solid wall may lie on the surface and be met
-      // instead of it.
-      if (goesOnAt(0.5f * (wall.t + reach)) || goesOnAt(reach)) out[k] = wall.t * world.scale;
-    }
-    return out;
-  };
-}
-
-void warnOfThinWalls(const fs::path& folder, const Scene& scene, const RayScene& rays, const MapNames& names,
-                     Log& log) {
+void warnOfLeaks(const fs::path& folder, const Scene& scene, const RayScene& rays, const MapNames& names, Log& log) {
   const std::set<std::string> maps(names.global.begin(), names.global.end());
   size_t tested = 0, leaking = 0;
   std::map<int, size_t> walls;
@@ -152,7 +116,7 @@ void warnOfThinWalls(const fs::path& folder, const Scene& scene, const RayScene&
     for (size_t g = 0; g < names.global.size(); ++g)
       surfaces.push_back(names.global[g] == name ? names.surface[g] : -1);
     const BrickMap map(atlasFile(folder, name, ".bkm").string(), cache);
-    const WallTest test(rays, map, surfaces);
+    const LeakTest test(rays, map, surfaces);
     std::vector<int> through(places.size());
     parallelFor(places.size(), 16, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) through[i] = test.leakAt(places[i]);

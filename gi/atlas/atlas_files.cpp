@@ -1,13 +1,14 @@
-#include "gi/atlas.h"
+#include "gi/atlas_files.h"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <numeric>
 
+#include "gi/atlas/leaks.h"
 #include "gi/atlas/limits.h"
 #include "gi/atlas/photon_maps.h"
-#include "gi/atlas/thin_walls.h"
+#include "gi/atlas/sight_lines.h"
 #include "gi/bricks/point_tiles.h"
 #include "gi/photons/medium.h"
 #include "reyes/base/process.h"
@@ -233,7 +234,7 @@ void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays
   }
   returnFreeMemory();
   writeMaps(folder, {}, scene, rays, names, settings, within(kShareOfPhotons, 1), stats, log);
-  if (settings.photons.direct) warnOfThinWalls(folder, scene, rays, names, log);
+  if (settings.photons.direct) warnOfLeaks(folder, scene, rays, names, log);
 }
 
 }  // namespace tomales
