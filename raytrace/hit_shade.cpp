@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "raytrace/ray_scene.h"
 #include "reyes/dice.h"
@@ -31,6 +32,18 @@ std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, 
   }
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return group[a] < group[b]; });
   return order;
+}
+
+/// Calls work(group, which) for each shade group that was met, with the indices of its hits.
+template <class Work>
+void forEachGroup(const Scene& scene, const std::vector<Hit>& hits, const Work& work) {
+  std::vector<int> groupOf;
+  const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
+  for (size_t first = 0, last = 0; first < order.size(); first = last) {
+    const int g = groupOf[order[first]];
+    while (last < order.size() && groupOf[order[last]] == g) ++last;
+    work(g, std::span(order).subspan(first, last - first));
+  }
 }
 
 /// A hit later than shutter open is shaded like all other points: the surface is where it was then, and the ray comes
@@ -153,34 +166,30 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   hitContext.told = question.outputs.empty() ? nullptr : &question.outputs;
   answers.color.assign(hits.size(), vec3(0));
   answers.opacity.assign(hits.size(), vec3(0));
-  std::vector<int> groupOf;
-  const std::vector<uint32_t> order = byGroup(scene, hits, groupOf);
   const bool diffuse = context.kind == RayKind::Diffuse;
   ShadedPoints shaded;
   std::vector<vec3> emission;
-  for (size_t first = 0, last = 0; first < order.size(); first = last) {
-    const int g = groupOf[order[first]];
-    while (last < order.size() && groupOf[order[last]] == g) ++last;
+  forEachGroup(scene, hits, [&](int g, std::span<const uint32_t> which) {
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
     const Attributes& attributes = *group.attributes;
     ShadePoints points(g, floatsOfPoint(group.primvars), shading.wantsSteps(g));
-    points.reserve(static_cast<int>(last - first));
-    for (size_t k = first; k < last; ++k) addPoint(*impl_, rays[order[k]], hits[order[k]], names[order[k]], points);
+    points.reserve(static_cast<int>(which.size()));
+    for (const uint32_t i : which) addPoint(*impl_, rays[i], hits[i], names[i], points);
     const bool shades =
         question.wantsColor && question.mode.value_or(modeOf(attributes, context.kind)) == HitMode::Shader;
     if (shades) shading.shade(points, hitContext, shaded);
     emission.clear();
     if (!diffuse && context.seesAreaLights) shading.areaLightRadiance(points, emission, context);
-    for (size_t k = first; k < last; ++k) {
-      const uint32_t i = order[k];
-      const int p = static_cast<int>(k - first);
+    for (size_t k = 0; k < which.size(); ++k) {
+      const uint32_t i = which[k];
+      const int p = static_cast<int>(k);
       const vec3 opacity = shades ? shaded.opacity(p) : primitiveColor(group, points, p, "Os", attributes.opacity);
       const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
       answers.opacity[i] = opacity;
-      answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k - first];
+      answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k];
       tell(group, points, p, i, shades ? &shaded : nullptr, question, answers);
     }
-  }
+  });
 }
 
 void RayScene::throughVolumes(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
@@ -203,18 +212,13 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
                             const ShadingSystem& shading, const ShadeContext& context, HitAnswers& answers) const {
   ShadeContext crossing = context;
   crossing.answers = nullptr;  // these belong to the points that the rays leave first
-  std::vector<int> groupOf;
-  const std::vector<uint32_t> order = byGroup(impl_->scene, left, groupOf);
   ShadedPoints colors;
-  for (size_t first = 0, last = 0; first < order.size(); first = last) {
-    const int g = groupOf[order[first]];
-    while (last < order.size() && groupOf[order[last]] == g) ++last;
+  forEachGroup(impl_->scene, left, [&](int g, std::span<const uint32_t> ofGroup) {
     for (const bool inside : {false, true}) {
       if (!shading.hasVolume(g, inside)) continue;
       ShadePoints ends(g, floatsOfPoint(impl_->scene.groups[static_cast<size_t>(g)].primvars), shading.wantsSteps(g));
       std::vector<uint32_t> which;
-      for (size_t k = first; k < last; ++k) {
-        const uint32_t i = order[k];
+      for (const uint32_t i : ofGroup) {
         if (hits[i].object < 0 || (dot(rays[i].direction, left[i].geometricNormal) < 0) != inside) continue;
         const vec3 I = std::max(hits[i].t, 0.0f) * rays[i].direction;
         addPoint(*impl_, came[i], left[i], names[i], ends);
@@ -231,7 +235,7 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
         answers.opacity[which[k]] = colors.opacity(static_cast<int>(k));
       }
     }
-  }
+  });
 }
 
 }  // namespace tomales

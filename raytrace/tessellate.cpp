@@ -52,7 +52,15 @@ class Tessellator {
       return;
     }
     const auto first = static_cast<uint32_t>(out.P.size());
-    const float side = o.subtracted ? -1.0f : 1.0f;
+    addVertices(g, nu, nv, o.subtracted ? -1.0f : 1.0f, out);
+    out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
+                            static_cast<uint32_t>(out.quads.size()), keptOfTile == Kept::All ? nullptr : &o.shape()});
+    out.trimmed |= keptOfTile != Kept::All;
+    addQuads(g, nu, nv, first, out);
+  }
+
+  /// side: factor on normals.
+  static void addVertices(const Grid& g, int nu, int nv, float side, CoarseGroup& out) {
     out.laterP.resize(static_cast<size_t>(g.keyCount) - 1);
     for (int j = 0; j <= nv; ++j)
       for (int i = 0; i <= nu; ++i) {
@@ -62,9 +70,10 @@ class Tessellator {
         for (int key = 1; key < g.keyCount; ++key)
           out.laterP[static_cast<size_t>(key) - 1].push_back(g.position(key, k));
       }
-    out.lattices.push_back({object, patch, rect, static_cast<uint32_t>(nu), static_cast<uint32_t>(nv),
-                            static_cast<uint32_t>(out.quads.size()), keptOfTile == Kept::All ? nullptr : &o.shape()});
-    out.trimmed |= keptOfTile != Kept::All;
+  }
+
+  /// Adds the quads of the last lattice. first: the number of their first vertex.
+  static void addQuads(const Grid& g, int nu, int nv, uint32_t first, CoarseGroup& out) {
     const auto row = static_cast<uint32_t>(nu + 1);
     for (int j = 0; j < nv; ++j)
       for (int i = 0; i < nu; ++i) {
@@ -204,32 +213,6 @@ std::vector<CoarseGroup> tessellateAll(const Scene& scene, const Camera& camera,
 }
 
 }  // namespace
-
-vec3 CoarseGroup::geometricNormal(uint32_t quad) const {
-  const vec3 n = cross(corner(quad, 2) - corner(quad, 0), corner(quad, 3) - corner(quad, 1));
-  return normalizeOr(flipsNormal ? -n : n, vec3(0, 0, -1));
-}
-
-vec3 CoarseGroup::pointOn(uint32_t quad, float u, float v) const {
-  const vec3 a = corner(quad, 0), b = corner(quad, 1), c = corner(quad, 2), d = corner(quad, 3);
-  return u + v <= 1 ? a + u * (b - a) + v * (d - a) : c + (1 - u) * (d - c) + (1 - v) * (b - c);
-}
-
-vec2 CoarseGroup::patchParameters(uint32_t quad, float u, float v) const {
-  const Lattice& l = latticeOf(quad);
-  if (l.nu == 1 && l.nv == 1) return {lerp(l.rect.u0, l.rect.u1, u), lerp(l.rect.v0, l.rect.v1, v)};
-  const uint32_t cell = quad - l.firstQuad;
-  const float fu = (static_cast<float>(cell % l.nu) + u) / static_cast<float>(l.nu);
-  const float fv = (static_cast<float>(cell / l.nu) + v) / static_cast<float>(l.nv);
-  return {lerp(l.rect.u0, l.rect.u1, fu), lerp(l.rect.v0, l.rect.v1, fv)};
-}
-
-size_t CoarseGroup::bytes() const {
-  size_t vertices = P.capacity() + N.capacity();
-  for (const auto& later : laterP) vertices += later.capacity();
-  return vertices * sizeof(vec3) + quads.capacity() * sizeof(Quad) + latticeOfQuad.capacity() * sizeof(uint32_t) +
-         lattices.capacity() * sizeof(Lattice);
-}
 
 void reportNotFinite(const Object& object, Log& log) {
   log.report(Severity::Warning, "trace-not-finite", object.where,

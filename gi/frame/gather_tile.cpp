@@ -23,26 +23,14 @@ struct Numbers {
   size_t count() const { return firstOfBatch.back(); }
 };
 
-}  // namespace
-
-GatherTile::GatherTile(const GiState& state, const DeepTile& tile, const std::vector<uint8_t>& gathers)
-    : rect_(tile.rect), end_(kGatherPhases + 1) {
-  std::vector<GatherPlaces> placesOf;
-  for (const ShadePoints& batch : tile.batches) placesOf.emplace_back(state, batch);
-  const Numbers numbers(tile);
-  std::vector<uint32_t> placeOf(numbers.count(), kNone);
+/// Calls ask(phase, batch, point, pixel) for each point of a tile at which something is gathered, in the order of
+/// pixels: for the nearest points of a pixel in the phase of that pixel, and for every other point once in a later one.
+template <class Ask>
+void forEachAskedPoint(const DeepTile& tile, const Numbers& numbers, const std::vector<uint8_t>& gathers,
+                       const Ask& ask) {
+  const auto width = static_cast<uint32_t>(tile.rect.width());
   std::vector<uint8_t> askedLate(numbers.count(), 0);
-  std::array<std::vector<Asked>, kGatherPhases> ofPhase;
-  const auto ask = [&](int phase, size_t batch, int point, uint32_t pixel) {
-    uint32_t& place = placeOf[numbers.of(batch, point)];
-    if (place == kNone) {
-      place = static_cast<uint32_t>(places_.size());
-      keep(placesOf[batch].at(point));
-    }
-    ofPhase[static_cast<size_t>(phase)].push_back({place, pixel});
-  };
   for (uint32_t pixel = 0; pixel < tile.pixels.size(); ++pixel) {
-    const auto width = static_cast<uint32_t>(rect_.width());
     const DeepPixel& seen = tile.pixels[pixel];
     bool first = true;
     for (uint32_t f = seen.first; f < seen.first + seen.count; ++f) {
@@ -53,14 +41,34 @@ GatherTile::GatherTile(const GiState& state, const DeepTile& tile, const std::ve
         const int point = facet.point[corner];
         if (corner > 0 && point == facet.point[0]) continue;
         if (first)
-          ask(latticePhase(rect_.x0 + static_cast<int>(pixel % width), rect_.y0 + static_cast<int>(pixel / width)), b,
-              point, pixel);
+          ask(latticePhase(tile.rect.x0 + static_cast<int>(pixel % width),
+                           tile.rect.y0 + static_cast<int>(pixel / width)),
+              b, point, pixel);
         else if (!std::exchange(askedLate[numbers.of(b, point)], 1))
           ask(kLatticePhases + static_cast<int>(hash32(tile.batches[b].key(point)) % kLastPhases), b, point, pixel);
         first = false;
       }
     }
   }
+}
+
+}  // namespace
+
+GatherTile::GatherTile(const GiState& state, const DeepTile& tile, const std::vector<uint8_t>& gathers)
+    : rect_(tile.rect), end_(kGatherPhases + 1) {
+  std::vector<GatherPlaces> placesOf;
+  for (const ShadePoints& batch : tile.batches) placesOf.emplace_back(state, batch);
+  const Numbers numbers(tile);
+  std::vector<uint32_t> placeOf(numbers.count(), kNone);
+  std::array<std::vector<Asked>, kGatherPhases> ofPhase;
+  forEachAskedPoint(tile, numbers, gathers, [&](int phase, size_t batch, int point, uint32_t pixel) {
+    uint32_t& place = placeOf[numbers.of(batch, point)];
+    if (place == kNone) {
+      place = static_cast<uint32_t>(places_.size());
+      keep(placesOf[batch].at(point));
+    }
+    ofPhase[static_cast<size_t>(phase)].push_back({place, pixel});
+  });
   for (size_t phase = 0; phase < ofPhase.size(); ++phase) {
     asked_.insert(asked_.end(), ofPhase[phase].begin(), ofPhase[phase].end());
     end_[phase + 1] = static_cast<uint32_t>(asked_.size());

@@ -1,6 +1,5 @@
 #include "gi/services.h"
 
-#include <numeric>
 #include <utility>
 
 #include "gi/frame/baked_light.h"
@@ -9,17 +8,11 @@
 #include "gi/frame/hemisphere_queries.h"
 #include "gi/frame/indirect.h"
 #include "gi/frame/ray_calls.h"
-#include "gi/frame/ray_start.h"
 #include "gi/frame/record_lookup.h"
 #include "gi/frame/reference.h"
+#include "gi/frame/shadow_rays.h"
 
 namespace tomales {
-namespace {
-
-/// The shadow rays of one light see at least so many times of the shutter, over all its samples.
-constexpr int kTimesOfLight = 16;
-
-}  // namespace
 
 bool keepsHemispheres(const GiSettings& settings) {
   return settings.mode != GiMode::Reference && settings.maxError != 0;
@@ -120,51 +113,7 @@ void GiServices::useEmitters(EmitterTable emitters) { impl_->emitters.emplace(st
 
 void GiServices::transmission(const ShadePoints& points, const uint8_t* active, TmConstVec3 toward,
                               const ShadowRays& rays, const ShadeContext& context, TmVec3 light) const {
-  const RayTools* tools = context.purpose == Purpose::Rehearsal ? nullptr : impl_->rays();
-  if (!tools) return;
-  const RayScene& scene = *tools->rays;
-  const ShadeGroup& group = impl_->scene.groups[static_cast<size_t>(points.group())];
-  const Attributes& own = *group.attributes;
-  const bool samplesTime = scene.samplesTime(points.group()) && context.kind == RayKind::Camera;
-  const RayFilter filter = rays.query ? filterOf(scene, *rays.query, own) : filterOf(scene, {}, own);
-  std::vector<Ray> shadowRays;
-  std::vector<SampleName> names;
-  struct Lit {
-    int point, times;
-  };
-  std::vector<Lit> lit;
-  for (int i = 0; i < points.count(); ++i) {
-    const vec3 arriving{light.x[i], light.y[i], light.z[i]}, path{toward.x[i], toward.y[i], toward.z[i]};
-    const float length = glm::length(path);
-    if (!active[i] || arriving == vec3(0.0f) || !(length > 0)) continue;
-    const Ray atOpen{points.position(i), path / length, rays.solar ? kInfinity : length};
-    const bool changes = samplesTime && (group.currentFromOpen.moving() || points.get3(kDriftX, i) != vec3(0) ||
-                                         scene.mayMeetMotion(atOpen));
-    const int times = changes ? std::max(1, kTimesOfLight / rays.samples) : 1;
-    lit.push_back({i, times});
-    for (int k = 0; k < times; ++k) {
-      const int strata = rays.samples * times, stratum = rays.sample * times + k;
-      Ray ray = atOpen;
-      startRay(scene, points, i, rayTime(scene, points, i, stratum, strata, context.seed), ray);
-      ray.offset = slantedOffset(ray.offset, std::abs(dot(ray.direction, points.get3(kNgx, i))));
-      if (rays.query) setBias(*rays.query, ray);
-      ray.filter = filter.passesAll() ? nullptr : &filter;
-      shadowRays.push_back(ray);
-      names.push_back(points.name(i));
-    }
-  }
-  int64_t adjusted = 0;
-  const std::vector<vec3> clear = scene.transmission(shadowRays, names, *tools->shading, context, adjusted);
-  auto first = clear.begin();
-  for (const auto [i, times] : lit) {
-    const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
-    first += times;
-    light.x[i] *= share.x;
-    light.y[i] *= share.y;
-    light.z[i] *= share.z;
-  }
-  impl_->stats.rays.transmission += static_cast<int64_t>(shadowRays.size());
-  impl_->stats.rays.hitlistAdjusted += adjusted;
+  traceShadows(*impl_, points, active, toward, rays, context, light);
 }
 
 bool GiServices::tracesFrom(const ShadePoints& points, const RayQuery& query, const ShadeContext& context) const {
