@@ -31,7 +31,7 @@ const SharedShapes kNoShapes;
 struct EmbreeScene::Impl : EmbreeWorld {
   using EmbreeWorld::EmbreeWorld;
 
-  float levelOf(const Ray& ray) const {
+  float detailNumberOf(const Ray& ray) const {
     if (!fades) return 0;
     uint32_t name = 0;
     for (const vec3& v : {ray.origin, ray.direction})
@@ -41,7 +41,7 @@ struct EmbreeScene::Impl : EmbreeWorld {
   }
 
   Traversal traversalOf(const Ray& ray, RTCFilterFunctionN filter, float shift, float window, HitList* list) const {
-    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, levelOf(ray)};
+    Traversal t{{}, shift, window, ray.tMax, list, &instances, ray.filter, detailNumberOf(ray)};
     rtcInitIntersectContext(&t.embree);
     t.embree.filter = filter;
     return t;

@@ -28,7 +28,7 @@ struct RayScene::Impl {
   /// the nearest after that to `beyond`, if it is nearer. `found`: there was a `beyond`. Returns whether there is one
   /// now.
   bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
-  vec3 clearness(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
+  vec3 transmittance(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
   Level levelOf(const Ray& ray, const vec3& P) const;
   /// Returns the least radius of rays that leave a point which a ray has met at this level. They must see no finer

@@ -70,7 +70,7 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
     if (layers.blocked) clear[r] = vec3(0);
     adjusted += layers.adjusted;
     for (const PolygonHit& hit : layers.hits)
-      if (impl_->knowsOpacity(hit.group)) clear[r] *= glm::clamp(impl_->clearness(hit), 0.0f, 1.0f);
+      if (impl_->knowsOpacity(hit.group)) clear[r] *= glm::clamp(impl_->transmittance(hit), 0.0f, 1.0f);
     if (clear[r] != vec3(0) && !impl_->volumes.none())
       clear[r] *= impl_->volumes.passed(rays[r], rays[r].tMax, kMaskTransmission);
     if (clear[r] == vec3(0)) continue;

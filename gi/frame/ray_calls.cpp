@@ -49,7 +49,7 @@ class ShaderRays {
       if (result_.effective) addCovered();
       if (wantsColor)
         layers_.goOn(*tools_.rays, hits_, answers_, query_.opacityThreshold,
-                     [&](int i, const vec3& color, const vec3& clear) { add(i, color, clear); });
+                     [&](int i, const vec3& color, const vec3& transmittance) { add(i, color, transmittance); });
     }
     for (const auto& [i, c] : covered_) result_.effective[i] = c.share > 0 ? c.distance / c.share : kInfinity;
   }
@@ -83,7 +83,7 @@ class ShaderRays {
     for (size_t r = 0; r < hits_.size(); ++r) {
       if (hits_[r].object < 0) continue;
       Covered& c = covered_[layers_.elements[r]];
-      const vec3 covers = layers_.clear[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f),
+      const vec3 covers = layers_.transmittance[r] * glm::clamp(answers_.opacity[r], 0.0f, 1.0f),
                  end = layers_.rays[r].origin + hits_[r].t * layers_.rays[r].direction;
       const float share = (covers.x + covers.y + covers.z) / 3;
       c.share += share;
@@ -91,9 +91,9 @@ class ShaderRays {
     }
   }
 
-  void add(int i, const vec3& color, const vec3& clear) {
+  void add(int i, const vec3& color, const vec3& transmittance) {
     if (result_.color.x) set(result_.color, i, get(result_.color, i) + color);
-    if (result_.opacity.x) set(result_.opacity, i, 1.0f - clear);
+    if (result_.opacity.x) set(result_.opacity, i, 1.0f - transmittance);
   }
 
   const GiState& state_;

@@ -10,7 +10,7 @@ void RayLayers::add(int element, const Ray& ray, SampleName name) {
   rays.push_back(ray);
   names.push_back(name);
   elements.push_back(element);
-  clear.push_back(vec3(1));
+  transmittance.push_back(vec3(1));
 }
 
 int64_t RayLayers::meet(const RayScene& scene, RayMask mask, std::vector<Hit>& hits) const {
@@ -38,7 +38,7 @@ Ray RayLayers::behind(const RayScene& scene, const Ray& ray, const Hit& hit) {
 void RayLayers::keep(size_t to, size_t from, const Ray& ray, const vec3& passes) {
   rays[to] = ray;
   elements[to] = elements[from];
-  clear[to] = passes;
+  transmittance[to] = passes;
   names[to] = {hashCombine(names[from].key, randomStream("laye")), names[from].sequence};
 }
 
@@ -46,7 +46,7 @@ void RayLayers::resize(size_t count) {
   rays.resize(count);
   names.resize(count);
   elements.resize(count);
-  clear.resize(count);
+  transmittance.resize(count);
 }
 
 }  // namespace tomales

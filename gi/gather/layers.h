@@ -9,8 +9,8 @@ constexpr int kMostLayers = 64;  ///< Greatest number of transparent surfaces th
 struct RayLayers {
   std::vector<Ray> rays;
   std::vector<SampleName> names;
-  std::vector<int> elements;  ///< The caller's number of the element that each ray belongs to.
-  std::vector<vec3> clear;    ///< Transmittance from the current start of each ray back to its first origin.
+  std::vector<int> elements;        ///< The caller's number of the element that each ray belongs to.
+  std::vector<vec3> transmittance;  ///< Transmittance from the current start of each ray back to its first origin.
   /// The ray that came to the surface behind which each one starts; empty before the first goOn().
   std::vector<Ray> came;
   std::vector<Hit> left;  ///< The hit on that surface.
@@ -31,8 +31,8 @@ struct RayLayers {
     left.clear();
     for (size_t r = 0; r < rays.size(); ++r) {
       // A shader result that is not finite would cost the whole point.
-      const vec3 color = isFinite(answers.color[r]) ? clear[r] * answers.color[r] : vec3(0);
-      const vec3 passes = clear[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
+      const vec3 color = isFinite(answers.color[r]) ? transmittance[r] * answers.color[r] : vec3(0);
+      const vec3 passes = transmittance[r] * (1.0f - glm::clamp(answers.opacity[r], 0.0f, 1.0f));
       brings(elements[r], color, passes);
       if (hits[r].object < 0) continue;
       if (maxComponent(passes) <= 1 - std::min(opacityThreshold, 0.9999f) || hits[r].t >= rays[r].tMax) continue;

@@ -138,7 +138,7 @@ void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
       const vec3 color = isLast ? left[r] : g == 0 ? share.color[r] : share.color[r] - scratch_.glow[r];
       left[r] -= color;
       if (isFinite(color))
-        seen.shares[g][static_cast<size_t>(scratch_.layers.elements[r])] += scratch_.layers.clear[r] * color;
+        seen.shares[g][static_cast<size_t>(scratch_.layers.elements[r])] += scratch_.layers.transmittance[r] * color;
     }
   }
 }
