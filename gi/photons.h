@@ -17,6 +17,8 @@ namespace tomales {
 /// paths before that: at a mean albedo of 0.93, 1 % of the light is left then.
 constexpr int kEnoughBounces = 64;
 
+constexpr int kNoBounceLimit = 1 << 20;  ///< More bounces than any photon has.
+
 struct PhotonSettings {
   int64_t emit = 1'000'000;  ///< Photons of all lights together.
   /// Most surfaces that a photon may arrive at; collisions in media count as well. 0: kEnoughBounces.
@@ -27,8 +29,8 @@ struct PhotonSettings {
   bool direct = true;
   /// Trace only the paths whose first surface, beside transparent ones, is mirror or glass. All others end at their
   /// first diffuse surface.
-  bool focusedOnly = false;
-  int mostBounces = 1 << 20;  ///< Photons that have bounced more often (StoredPhoton::bounces) are not traced.
+  bool specularFirstOnly = false;
+  int mostBounces = kNoBounceLimit;  ///< Photons that have bounced more often (StoredPhoton::bounces) are not traced.
 };
 
 struct StoredPhoton {
@@ -40,10 +42,10 @@ struct StoredPhoton {
   /// The diffuse surfaces and collisions on its path, and one more if mirrors or glass come before the first of them. A
   /// path tracer finds the same light after as many diffuse rays (docs/gi.md).
   int bounces;
-  bool focused;  ///< Mirrors or glass come before the first diffuse surface of its path.
+  bool specularFirst;  ///< Mirrors or glass come before the first diffuse surface of its path.
 
-  /// Its path has at least one mirror or glass surface, and no diffuse one.
-  bool caustic() const { return focused && bounces == 1; }
+  /// A caustic path, L S+ D (Heckbert 1990).
+  bool caustic() const { return specularFirst && bounces == 1; }
 };
 
 constexpr int kMostParts = 4096;
@@ -84,6 +86,6 @@ constexpr bool isMirrorOrGlass(PhotonModel m) {
 }
 
 /// Tells whether photons are mirrored or refracted by objects with these attributes.
-bool focusesPhotons(const Attributes& attributes);
+bool isSpecularForPhotons(const Attributes& attributes);
 
 }  // namespace tomales

@@ -47,7 +47,7 @@ struct PhotonPasses {
   int64_t photons = 1'000'000;  ///< The most that are sent.
   double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
   uint32_t seed = 0;
-  bool focusedOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
+  bool specularFirstOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
   bool shrinks = false;  ///< The disks on which photons count shrink from pass to pass. Otherwise each has the area of
                          ///< its micropolygon.
   Log* log = nullptr;    ///< Must be set, as the next.

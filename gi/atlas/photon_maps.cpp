@@ -18,8 +18,8 @@ size_t numberOf(const std::set<std::string>& maps, const std::string& name) {
 }
 
 uint64_t photonInputs(const MapNames& names, const AtlasSettings& settings) {
-  // focusedOnly keeps its default here.
-  const auto& [emit, maxDepth, seed, direct, focusedOnly, mostBounces] = settings.photons;
+  // specularFirstOnly keeps its default here.
+  const auto& [emit, maxDepth, seed, direct, specularFirstOnly, mostBounces] = settings.photons;
   return contentSum(kAtlasMethod, settings.world, names.global, names.caustic, names.volume, emit, maxDepth,
                     mostBounces, seed, direct);
 }

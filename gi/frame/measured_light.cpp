@@ -53,7 +53,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
   settings.emit = std::min(passes.photons, kPhotonsOfPass);
   settings.seed = passes.seed;
   settings.direct = false;
-  settings.focusedOnly = passes.focusedOnly;
+  settings.specularFirstOnly = passes.specularFirstOnly;
   settings.mostBounces = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     index_[nameOf(points_[i])] = static_cast<uint32_t>(i);

@@ -170,8 +170,8 @@ void GiServices::setHitRadianceSource(HitRadianceSource source) { impl_->hitRadi
 
 void GiServices::setPhotonPasses(PhotonPasses passes) {
   impl_->passes = std::move(passes);
-  if (!impl_->passes->focusedOnly) return;
-  for (const ShadeGroup& g : impl_->scene.groups) impl_->focusing.push_back(focusesPhotons(*g.attributes));
+  if (!impl_->passes->specularFirstOnly) return;
+  for (const ShadeGroup& g : impl_->scene.groups) impl_->focusing.push_back(isSpecularForPhotons(*g.attributes));
 }
 
 void GiServices::reportAtlas(Stats& stats) const {

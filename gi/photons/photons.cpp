@@ -44,7 +44,7 @@ std::optional<PhotonModel> photonModel(const std::string& name) {
   return std::nullopt;
 }
 
-bool focusesPhotons(const Attributes& attributes) {
+bool isSpecularForPhotons(const Attributes& attributes) {
   const auto model = photonModel(attributes.photon.shadingModel);
   return attributes.visibility.photon && model && isMirrorOrGlass(*model);
 }

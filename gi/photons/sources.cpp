@@ -27,7 +27,7 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
     add(photonsOf(light->index, shading, rays, target));
   }
   // A glowing surface is the first surface of its photons, and a diffuse one.
-  const bool glows = settings.maxDepth > 1 && settings.mostBounces > 0 && !settings.focusedOnly;
+  const bool glows = settings.maxDepth > 1 && settings.mostBounces > 0 && !settings.specularFirstOnly;
   if (!glows && !sources.empty()) return sources;
   auto glow = std::make_unique<EmissivePhotons>(rays, shading, settings.seed, log);
   if (sources.empty() && glow->power() <= 0)

@@ -157,7 +157,7 @@ bool PhotonTracer::collideWith(Path& path, const Medium& medium, bool isLit, flo
   const vec3 P = path.ray.origin + flight * path.ray.direction;
   if (isLit)
     out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, path.bounces,
-                   path.focused});
+                   path.specularFirst});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
   path.power = collision.power;

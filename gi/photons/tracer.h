@@ -31,7 +31,7 @@ class PhotonTracer {
     uint32_t surfacesPassed = 0;  ///< Surfaces that it has passed as if they were not there.
     uint32_t collisions = 0;      ///< Collisions with media.
     int bounces = 0;              ///< The same as StoredPhoton::bounces, and the next:
-    bool focused = false;
+    bool specularFirst = false;
     bool specular = true;  ///< It has met no diffuse surface so far.
     vec3 lift{0.0f};       ///< Offset from the origin to just before the polygon that it leaves.
   };

@@ -47,7 +47,7 @@ bool PhotonTracer::interact(Path& path, const Hit& hit, const Answer& answer, co
   if (lands && (settings_.direct || path.depth > 0)) {
     const vec3 Ng = hit.geometricNormal;
     out.push_back({hit.atOpen, dot(path.ray.direction, Ng) < 0 ? Ng : -Ng, path.power, group, path.depth, path.bounces,
-                   path.focused});
+                   path.specularFirst});
   }
   if (passing > 0 && sobol1(path.number, hashCombine(name, 3u)) < passing)
     return passThrough(path, hit, transmitted / passing, xi.survival);
@@ -80,8 +80,8 @@ bool PhotonTracer::reflectOrRefract(Path& path, const Hit& hit, float survival, 
   const PhotonModel model = surfaces_.model(groupOf(hit));
   const vec3& tint = scene_.groups[static_cast<size_t>(groupOf(hit))].attributes->color;
   if (++path.depth >= settings_.maxDepth || !survive(path, tint, survival)) return false;
-  if (path.specular && !path.focused) {
-    path.focused = true;
+  if (path.specular && !path.specularFirst) {
+    path.specularFirst = true;
     ++path.bounces;
   }
   const vec3 d = path.ray.direction;
@@ -96,7 +96,7 @@ bool PhotonTracer::reflectOrRefract(Path& path, const Hit& hit, float survival, 
 /// Counts a diffuse surface or a collision. Returns false if no later arrival would count.
 bool PhotonTracer::countScattering(Path& path) const {
   path.specular = false;
-  return ++path.bounces <= settings_.mostBounces && (path.focused || !settings_.focusedOnly);
+  return ++path.bounces <= settings_.mostBounces && (path.specularFirst || !settings_.specularFirstOnly);
 }
 
 /// Surviving photons keep the power that they came with, so that all stored photons have about the same power.

@@ -41,7 +41,7 @@ void setPhotons(GiServices& services, const FrameOfLight& frame) {
   passes.photons = frame.settings.light.photons;
   passes.noise = frame.settings.light.photonNoise;
   passes.seed = lightSeedOf(frame.settings);
-  passes.focusedOnly = causticsAlone;
+  passes.specularFirstOnly = causticsAlone;
   passes.shrinks = !causticsAlone;
   passes.log = &frame.log;
   passes.tell = [log = &frame.log](int64_t sent, size_t points, double noise) {
@@ -71,7 +71,7 @@ const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& sh
 }
 
 bool countsPhotons(const GiMethod& method, const Scene& scene) {
-  const auto focuses = [](const ShadeGroup& g) { return focusesPhotons(*g.attributes); };
+  const auto focuses = [](const ShadeGroup& g) { return isSpecularForPhotons(*g.attributes); };
   return method.countsPhotons &&
          (!method.causticsAlone || std::any_of(scene.groups.begin(), scene.groups.end(), focuses));
 }
