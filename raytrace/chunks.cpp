@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "raytrace/doubled_grid.h"
-#include "raytrace/ray_times.h"
+#include "raytrace/motion_keys.h"
 #include "raytrace/tessellate.h"
 #include "reyes/base/morton.h"
 #include "reyes/base/packed_normal.h"
@@ -63,7 +63,7 @@ Chunks::Chunks(const Scene& scene, const Camera& camera, const ShadingSystem& sh
   if (std::all_of(scene.groups.begin(), scene.groups.end(),
                   [](const ShadeGroup& g) { return g.attributes->trace.rate == TessellationMode::Fixed; }))
     return;
-  const std::vector<std::vector<float>> times = rayTimes(scene);
+  const std::vector<std::vector<float>> times = motionKeyTimes(scene);
   std::vector<std::pair<int, uint32_t>> patches;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& o = scene.objects[i];

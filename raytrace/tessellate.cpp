@@ -6,7 +6,7 @@
 
 #include "raytrace/chunks.h"
 #include "raytrace/doubled_grid.h"
-#include "raytrace/ray_times.h"
+#include "raytrace/motion_keys.h"
 #include "reyes/base/parallel.h"
 #include "reyes/dice.h"
 
@@ -22,7 +22,7 @@ constexpr int kLatticeTile = 64;  ///< Quads of one lattice along u or v; it lim
 class Tessellator {
  public:
   Tessellator(const Scene& scene, const Camera& camera, const ShadingSystem& shading, float longer, Log& log)
-      : scene_(scene), camera_(camera), shading_(shading), longer_(longer), log_(log), times_(rayTimes(scene)) {}
+      : scene_(scene), camera_(camera), shading_(shading), longer_(longer), log_(log), times_(motionKeyTimes(scene)) {}
 
   bool moves(int object) const { return times_[static_cast<size_t>(objectOf(object).group)].size() > 1; }
 

@@ -1,6 +1,6 @@
 // Verb: the objects of a scene -> coarse quadrilaterals for rays, merged by shade group.
 //   in     a frozen scene; displacement where trace:displacements asks for it
-//   out    vertices in current space at the motion keys of raytrace/ray_times.h, quads, and the object, patch
+//   out    vertices in current space at the motion keys of raytrace/motion_keys.h, quads, and the object, patch
 //          and (u,v) of every quad
 //   never  depends on threads: the order is that of objects and patches
 // Rate: where the camera can see the object, polygons are about 16 pixels long, times sqrt(ShadingRate) /

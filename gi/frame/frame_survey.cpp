@@ -12,7 +12,7 @@ namespace tomales {
 namespace {
 
 /// Returns a hash of the nearest point that a pixel sees.
-uint64_t nameOf(int x, int y, int group, const vec3& P) {
+uint64_t hashOf(int x, int y, int group, const vec3& P) {
   const std::array<uint32_t, 6> seen{static_cast<uint32_t>(x),     static_cast<uint32_t>(y),
                                      static_cast<uint32_t>(group), std::bit_cast<uint32_t>(P.x),
                                      std::bit_cast<uint32_t>(P.y), std::bit_cast<uint32_t>(P.z)};
@@ -28,7 +28,7 @@ std::vector<uint64_t> seenOfBatches(const DeepTile& tile) {
       if (pixel.count == 0) continue;
       const Facet& facet = tile.facets[tile.fragments[pixel.first].facet];
       const auto b = static_cast<size_t>(facet.batch);
-      seen[b] += nameOf(x, y, tile.batches[b].group(), tile.batches[b].position(facet.point[0]));
+      seen[b] += hashOf(x, y, tile.batches[b].group(), tile.batches[b].position(facet.point[0]));
     }
   return seen;
 }

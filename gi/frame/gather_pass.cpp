@@ -45,7 +45,11 @@ void fields(A& a, Site& x) {
 class GatherPass {
  public:
   GatherPass(GiState& state, const DeepFrame& layout, const TileReader& tiles)
-      : state_(state), layout_(layout), tiles_(tiles), slices_(state.kept, KeptKind::GatherRecords), caches_(state) {}
+      : state_(state),
+        layout_(layout),
+        tiles_(tiles),
+        slices_(state.checkpoint, KeptKind::GatherRecords),
+        caches_(state) {}
 
   void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
            const std::function<void(int stride)>& covered) {
@@ -109,7 +113,7 @@ class GatherPass {
     const auto start = std::chrono::steady_clock::now();
     const double raysBefore = state_.stats.lightRays();
     state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
-                                {state_.stats, cancelled_, state_.kept, state_.groups});
+                                {state_.stats, cancelled_, state_.checkpoint, state_.groups});
     state_.bounceCost = {state_.stats.lightRays() - raysBefore,
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   }
@@ -131,7 +135,8 @@ class GatherPass {
     std::stable_sort(sites.begin(), sites.end(),
                      [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     std::erase_if(sites, [&](const Site& s) { return !sites_[s.cache].insert(keyOf(s)).second; });
-    if (state_.kept && !isCancelled()) state_.kept->keep(KeptKind::GatherSites, static_cast<size_t>(phase_), sites);
+    if (state_.checkpoint && !isCancelled())
+      state_.checkpoint->keep(KeptKind::GatherSites, static_cast<size_t>(phase_), sites);
     return sites;
   }
 
@@ -142,7 +147,8 @@ class GatherPass {
     const auto fits = [&](const Site& s) {
       return s.cache < sites_.size() && static_cast<size_t>(s.point.group) < caches_.ofGroups().size();
     };
-    if (!state_.kept || !state_.kept->take(KeptKind::GatherSites, static_cast<size_t>(phase_), sites)) return false;
+    if (!state_.checkpoint || !state_.checkpoint->take(KeptKind::GatherSites, static_cast<size_t>(phase_), sites))
+      return false;
     if (!std::ranges::all_of(sites, fits)) {
       sites.clear();
       return false;

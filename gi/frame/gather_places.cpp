@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-uint32_t nameOf(const vec3& v) {
+uint32_t hashOf(const vec3& v) {
   return hashCombine(std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z));
 }
 
@@ -63,7 +63,7 @@ GatherPoint GatherPlaces::at(int i) const {
                 points_.edgeLength(i),
                 own ? points_.get3(kDriftX, i) : vec3(0),
                 points_.channel(kTime)[i]};
-  if (!own) p.key = hashCombine(nameOf(p.position), nameOf(p.normal));
+  if (!own) p.key = hashCombine(hashOf(p.position), hashOf(p.normal));
   p.pixelSize = projectedPixelSize(state_.camera, p.position, p.normal);
   return p;
 }

@@ -37,18 +37,18 @@ MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const
 
 }  // namespace
 
-uint64_t MeasuredLight::nameOf(const MeasurementPoint& point) { return checksum(std::as_bytes(std::span(&point, 1))); }
+uint64_t MeasuredLight::hashOf(const MeasurementPoint& point) { return checksum(std::as_bytes(std::span(&point, 1))); }
 
 void MeasuredLight::note(const MeasurementPoint& point) {
   static_assert(sizeof point == 9 * sizeof(float), "no padding, whose bytes would be names too");
   const std::lock_guard lock(noting_);
-  if (index_.emplace(nameOf(point), 0U).second) points_.push_back(point);
+  if (index_.emplace(hashOf(point), 0U).second) points_.push_back(point);
 }
 
 void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
                             const std::function<void(float)>& progress, Stats& stats) {
   // Threads have noted them in any order.
-  std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return nameOf(a) < nameOf(b); });
+  std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return hashOf(a) < hashOf(b); });
   PhotonSettings settings;
   settings.emit = std::min(passes.photons, kPhotonsOfPass);
   settings.seed = passes.seed;
@@ -56,7 +56,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
   settings.specularFirstOnly = passes.specularFirstOnly;
   settings.mostBounces = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
-    index_[nameOf(points_[i])] = static_cast<uint32_t>(i);
+    index_[hashOf(points_[i])] = static_cast<uint32_t>(i);
     settings.mostBounces = std::max(settings.mostBounces, points_[i].bounces);
   }
   const PhotonSources sources(*tools.rays, *tools.shading, settings, *passes.log);
@@ -78,7 +78,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
 }
 
 vec3 MeasuredLight::overPi(const MeasurementPoint& point) const {
-  const auto found = index_.find(nameOf(point));
+  const auto found = index_.find(hashOf(point));
   return found == index_.end() ? vec3(0.0f) : measurement_->overPi(found->second);
 }
 

@@ -28,10 +28,10 @@ class MeasuredLight {
   vec3 overPi(const MeasurementPoint& point) const;
 
  private:
-  static uint64_t nameOf(const MeasurementPoint& point);
+  static uint64_t hashOf(const MeasurementPoint& point);
 
   std::mutex noting_;
-  std::unordered_map<uint64_t, uint32_t> index_;  ///< The number of each point, by its name.
+  std::unordered_map<uint64_t, uint32_t> index_;  ///< The number of each point, by its hash.
   std::vector<MeasurementPoint> points_;
   std::unique_ptr<PhotonMeasurement> measurement_;
 };

@@ -9,21 +9,21 @@
 namespace tomales {
 namespace {
 
-uint32_t nameOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
+uint32_t hashOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
 
 /// Hashes the part of the query that GatherSettings do not hold as well.
-uint32_t nameOf(const std::optional<HemisphereQuery>& q) {
+uint32_t hashOf(const std::optional<HemisphereQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),
                          static_cast<uint32_t>(q->sides) | static_cast<uint32_t>(q->radiance) << 8 |
                              (q->mode ? static_cast<uint32_t>(*q->mode) + 1 : 0) << 9 |
                              static_cast<uint32_t>(q->diffuseLimit) << 16,
-                         nameOf(q->subset), nameOf(q->excludeSubset))
+                         hashOf(q->subset), hashOf(q->excludeSubset))
            : 0;
 }
 
 /// Names what the records of a cache say at a place, as long as none comes or goes.
-uint64_t nameOf(const GiState& state, const PreparedCache& prepared, const IrradiancePlace& at) {
+uint64_t hashOf(const GiState& state, const PreparedCache& prepared, const IrradiancePlace& at) {
   const struct {
     vec3 position, normal, shadingNormal;
     float pixelSize;
@@ -60,9 +60,9 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           point.drift,
           static_cast<uint32_t>(settings.light),
           static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
-          nameOf(settings.subset),
+          hashOf(settings.subset),
           state.settings.mode == GiMode::Radiosity,
-          nameOf(settings.asked)};
+          hashOf(settings.asked)};
   static_assert(sizeof asked == 20 * sizeof(uint32_t), "no padding, whose bytes would be names too");
   const uint64_t name = answers ? checksum(std::as_bytes(std::span(&asked, 1))) : 0;
   const std::span<const std::string> groups = shareGroupsFor(state, settings);
@@ -89,7 +89,7 @@ BatchLookup recallOrLookUp(const GiState& state, const PreparedCache& prepared, 
   BatchLookup out = placesOf(places, points, active, N);
   auto& known = context.answers->interpolated;
   std::vector<uint64_t> names;
-  for (const IrradiancePlace& at : out.at) names.push_back(nameOf(state, prepared, at));
+  for (const IrradiancePlace& at : out.at) names.push_back(hashOf(state, prepared, at));
   if (std::ranges::all_of(names, [&](uint64_t name) { return known.contains(name); })) {
     for (size_t k = 0; k < names.size(); ++k) {
       const std::optional<IndirectAnswer>& answer = known.at(names[k]);

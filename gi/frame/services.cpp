@@ -64,7 +64,7 @@ void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
 
 void GiServices::startAgain(const GiSettings& settings) {
   impl_->settings = settings;
-  impl_->kept = nullptr;
+  impl_->checkpoint = nullptr;
   impl_->caches.clear();
   impl_->redrawn.clear();
   impl_->learnt = std::make_shared<LearntLight>();
@@ -78,7 +78,7 @@ void GiServices::tellBouncesLeft(Log& log) const {
   if (left.share > 0) tomales::tellBouncesLeft(left, true, "gather-bounces", impl_->scene.where, log);
 }
 
-void GiServices::useCheckpoint(Checkpoint* kept) { impl_->kept = kept; }
+void GiServices::useCheckpoint(Checkpoint* kept) { impl_->checkpoint = kept; }
 
 void GiServices::bake(const DeepFrame& layout, const TileReader& tiles, const std::filesystem::path& folder,
                       const MapNames& names, uint64_t world) const {

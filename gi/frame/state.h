@@ -28,7 +28,7 @@ struct GiState {
   std::shared_ptr<LearntLight> learnt = std::make_shared<LearntLight>();  ///< Written by fillCaches().
   /// Queries of each group; written by learnHemisphereQueries() alone.
   mutable std::vector<std::vector<HemisphereQuery>> hemispheresAsked{};
-  Checkpoint* kept = nullptr;                                ///< Null if nothing is kept for a later run.
+  Checkpoint* checkpoint = nullptr;                          ///< Null if nothing is kept for a later run.
   bool cachesGiven = false;                                  ///< The caches were not gathered for this very frame.
   std::optional<PixelRect> anew{};                           ///< Pixels whose given records have been taken out.
   AtlasSource atlasSource{};                                 ///< May be empty.

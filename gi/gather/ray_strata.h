@@ -33,9 +33,9 @@ class CellJitter {
 };
 
 /// Times of the rays: equal strata of the shutter in an order that is independent of the cells.
-class RayTimes {
+class ShutterStrata {
  public:
-  RayTimes(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key)
+  ShutterStrata(const RayScene& scene, const GatherPoint& point, size_t count, uint32_t key)
       : fixed_(std::max(point.time, 0.0f)), key_(key) {
     if (point.time < 0 && scene.samplesTime(point.group))
       strata_ = permutation(static_cast<int>(count), key ^ randomStream("time"));

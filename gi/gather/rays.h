@@ -59,7 +59,7 @@ class GatherRays {
   const HitRadiance* known_;
   const std::span<const std::string> groups_;
   const uint32_t key_;
-  const RayTimes times_;
+  const ShutterStrata times_;
   RayFilter filter_;
   Ray first_;
   PolygonStart start_;

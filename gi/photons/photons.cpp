@@ -60,11 +60,12 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   Series series(arrivals);
   std::vector<std::vector<StoredPhoton>> stored;
   const size_t photonsPerWave = PhotonSources::kPhotonsPerTask * kTasksPerThread * static_cast<size_t>(threadCount());
-  const std::vector<PhotonSources::Span> spans = sources.spansOf(part);
-  const auto all = std::accumulate(spans.begin(), spans.end(), size_t{0},
-                                   [](size_t sum, const PhotonSources::Span& s) { return sum + s.end - s.first; });
+  const std::vector<PhotonSources::PhotonRange> ranges = sources.rangesOf(part);
+  const auto all =
+      std::accumulate(ranges.begin(), ranges.end(), size_t{0},
+                      [](size_t sum, const PhotonSources::PhotonRange& s) { return sum + s.end - s.first; });
   double power = 0;
-  for (const auto& [from, first, last] : spans) {
+  for (const auto& [from, first, last] : ranges) {
     const PhotonSources::Sent& sent = *from;
     for (size_t wave = first; wave < last; wave += photonsPerWave) {
       const size_t end = std::min(last, wave + photonsPerWave);
@@ -85,7 +86,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
   stats.rays.photon += figures.emitted;
   const BouncesLeft left = series.left(power);
   figures.left = left.share;
-  if (!spans.empty() && arrivals > 1) tellBouncesLeft(left, isAsked, "photons-bounces", scene.where, log);
+  if (!ranges.empty() && arrivals > 1) tellBouncesLeft(left, isAsked, "photons-bounces", scene.where, log);
   return figures;
 }
 

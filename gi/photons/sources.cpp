@@ -55,13 +55,13 @@ PhotonSources::PhotonSources(const RayScene& rays, const ShadingSystem& shading,
   }
 }
 
-std::vector<PhotonSources::Span> PhotonSources::spansOf(WorkPart part) const {
+std::vector<PhotonSources::PhotonRange> PhotonSources::rangesOf(WorkPart part) const {
   const auto tasksOf = [](const Sent& s) { return (s.count + kPhotonsPerTask - 1) / kPhotonsPerTask; };
   size_t tasks = 0, before = 0;
   for (const Sent& s : sources_) tasks += tasksOf(s);
   const auto borderOf = [&](int index) { return tasks * static_cast<size_t>(index) / static_cast<size_t>(part.count); };
   const size_t begin = borderOf(part.index), end = borderOf(part.index + 1);
-  std::vector<Span> out;
+  std::vector<PhotonRange> out;
   for (const Sent& s : sources_) {
     const auto photonOf = [&](size_t task) {
       return std::min(s.count, (std::clamp(task, before, before + tasksOf(s)) - before) * kPhotonsPerTask);

@@ -17,13 +17,13 @@ class PhotonSources {
   };
   double power() const { return power_; }  ///< Power of all sources together, in W.
   /// Photons `first` .. `end` - 1 of a source.
-  struct Span {
+  struct PhotonRange {
     const Sent* from;
     size_t first, end;
   };
   /// Returns the photons of one part. Parts end where tasks do, so that tasks trace the same photons together as in the
   /// whole.
-  std::vector<Span> spansOf(WorkPart part) const;
+  std::vector<PhotonRange> rangesOf(WorkPart part) const;
   const PhotonSettings& settings() const { return settings_; }
 
   /// A task's photons fit into the processor's cache.

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "raytrace/ray_times.h"
+#include "raytrace/motion_keys.h"
 #include "world.h"
 
 namespace tomales::test {
@@ -55,7 +55,7 @@ TEST(RayMotion, KeysOutsideTheShutterMoveNothing) {
     world.scene.objects[0].worldFromObject = {times, {translation({-2, 0, 4}), translation({1, 0, 4})}};
     world.build();
     const float x = times[0] < 0 ? 1 : -2;
-    EXPECT_EQ(rayTimes(world.scene)[0].size(), 1u);
+    EXPECT_EQ(motionKeyTimes(world.scene)[0].size(), 1u);
     for (const float time : {0.0f, 0.6f}) EXPECT_NEAR(leftEdge(world, time), x, 1e-5f);
   }
 }
@@ -107,7 +107,7 @@ TEST(RayMotion, IsForObjectsThatSampleItAlone) {
   world.build();
   EXPECT_FALSE(world.rays->samplesTime(0));
   EXPECT_NEAR(leftEdge(world, 0.9f), 0, 1e-5f);
-  EXPECT_EQ(rayTimes(world.scene)[0].size(), 1u) << "no memory for motion that no ray sees";
+  EXPECT_EQ(motionKeyTimes(world.scene)[0].size(), 1u) << "no memory for motion that no ray sees";
 }
 
 TEST(RayMotion, AreaLightsStandWhereTheyAreAtShutterOpen) {
@@ -125,7 +125,7 @@ TEST(RayMotion, KeysDivideTheShutterAsFinelyAsTheObjectsNeed) {
   world.scene.objects[0].worldFromObject = {
       {0, 0.25f, 0.5f, 1}, {mat4(1), translation({1, 0, 0}), translation({2, 0, 0}), translation({9, 0, 0})}};
   world.build();
-  EXPECT_EQ(rayTimes(world.scene)[0], (std::vector<float>{0, 0.25f, 0.5f, 0.75f, 1}));
+  EXPECT_EQ(motionKeyTimes(world.scene)[0], (std::vector<float>{0, 0.25f, 0.5f, 0.75f, 1}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "raytrace/ray_times.h"
+#include "raytrace/motion_keys.h"
 
 namespace tomales {
 namespace {
@@ -46,7 +46,7 @@ bool raysHaveTimes(const Scene& scene) {
                      [](const ShadeGroup& g) { return g.attributes->trace.sampleMotion; });
 }
 
-std::vector<std::vector<float>> rayTimes(const Scene& scene) {
+std::vector<std::vector<float>> motionKeyTimes(const Scene& scene) {
   std::vector<std::vector<float>> keys(scene.groups.size());
   if (raysHaveTimes(scene))
     for (const Object& o : scene.objects) {
