@@ -24,7 +24,7 @@ constexpr size_t kChunkTiles = 1024;
 /// Cells along u and v of the lattice over a tile that shows where its bound is too small.
 constexpr int kTileProbes = 8;
 constexpr int kSampled = 4;  ///< Polygons along u and v of the part of a tile whose deviation is measured.
-constexpr size_t index(Level level) { return static_cast<size_t>(level); }
+constexpr size_t index(TessellationLevel level) { return static_cast<size_t>(level); }
 
 int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 
@@ -117,7 +117,7 @@ void Chunks::measure(TiledPatch& tiled, Piece& piece) const {
     return g;
   };
   if (displacesForRays(o)) displaced(piece.rect, kTileProbes, kTileProbes);
-  for (const Level level : {Level::Medium, Level::Fine}) {
+  for (const TessellationLevel level : {TessellationLevel::Medium, TessellationLevel::Fine}) {
     if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
     const auto [nu, nv] = piece.rate[index(level)];
     const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
@@ -151,14 +151,14 @@ void Chunks::pack(const std::vector<TiledPatch>& tiled) {
       present_[group] = true;
       ofGroup[group].extend(piece.bound);
       placed.push_back({group, 0, &p, &piece});
-      finePolygons_ += polygons(piece.rate[index(Level::Fine)]);
+      finePolygons_ += polygons(piece.rate[index(TessellationLevel::Fine)]);
     }
   }
   for (Placed& p : placed) p.place = mortonPlace(p.piece->bound.center(), ofGroup[p.group]);
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
     return std::tie(a.group, a.place) < std::tie(b.group, b.place);
   });
-  for (const Level level : {Level::Fine, Level::Medium}) {
+  for (const TessellationLevel level : {TessellationLevel::Fine, TessellationLevel::Medium}) {
     int64_t held = kChunkPolygons;
     for (const Placed& p : placed) {
       if (levelOf(p.group, level) != level) continue;

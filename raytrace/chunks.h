@@ -22,7 +22,7 @@ struct PatchTile {
 
 struct Chunk {
   uint32_t group;
-  Level level;
+  TessellationLevel level;
   Bound3 bound;  ///< Holds the vertices of all levels, so it may be larger than this level needs.
   std::vector<PatchTile> tiles;
 };
@@ -52,13 +52,15 @@ class Chunks {
   const std::vector<Chunk>& all() const { return chunks_; }
   ChunkMesh dice(size_t chunk) const;
   /// Returns the level at which a ray of this level sees a group. Coarse means that its polygons are not here.
-  Level levelOf(uint32_t group, Level ray) const { return full_[group] ? Level::Fine : ray; }
+  TessellationLevel levelOf(uint32_t group, TessellationLevel ray) const {
+    return full_[group] ? TessellationLevel::Fine : ray;
+  }
   bool has(uint32_t group) const { return present_[group]; }
   /// Returns the largest distance between the polygons that a ray of this level sees here and the surface that they
   /// stand for, as far as samples show; 0 if it sees none.
-  float deviation(size_t group, Level ray) const {
-    const Level level = levelOf(static_cast<uint32_t>(group), ray);
-    return level == Level::Coarse ? 0 : deviations_[group][static_cast<size_t>(level)];
+  float deviation(size_t group, TessellationLevel ray) const {
+    const TessellationLevel level = levelOf(static_cast<uint32_t>(group), ray);
+    return level == TessellationLevel::Coarse ? 0 : deviations_[group][static_cast<size_t>(level)];
   }
   /// Returns the unit normal on the RISpec side at tile parameters u, v.
   vec3 normal(const ChunkMesh& mesh, size_t chunk, uint32_t tile, float u, float v) const;

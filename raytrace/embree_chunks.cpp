@@ -65,7 +65,7 @@ void EmbreeChunks::attach(RTCDevice device, RTCScene to, unsigned id, uint32_t f
   for (uint32_t c = 0; c < chunks_.all().size(); ++c) {
     const auto& [group, level, bound, tiles] = chunks_.all()[c];
     uint32_t mask = 0;
-    for (const Level ray : {Level::Fine, Level::Medium, Level::Coarse})
+    for (const TessellationLevel ray : {TessellationLevel::Fine, TessellationLevel::Medium, TessellationLevel::Coarse})
       if (chunks_.levelOf(group, ray) == level) mask |= maskAt(masks[group], ray);
     byMask[mask].push_back(c);
   }

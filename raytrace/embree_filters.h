@@ -11,9 +11,10 @@
 namespace tomales {
 
 /// Returns Embree's mask for rays with these bits of RayMask at a level. Geometries that they see have the same mask.
-inline uint32_t maskAt(uint32_t mask, Level level) { return mask << 4 * static_cast<int>(level); }
+inline uint32_t maskAt(uint32_t mask, TessellationLevel level) { return mask << 4 * static_cast<int>(level); }
 inline uint32_t maskAtAllLevels(uint32_t mask) {
-  return maskAt(mask, Level::Fine) | maskAt(mask, Level::Medium) | maskAt(mask, Level::Coarse);
+  return maskAt(mask, TessellationLevel::Fine) | maskAt(mask, TessellationLevel::Medium) |
+         maskAt(mask, TessellationLevel::Coarse);
 }
 
 /// An Embree geometry. Small groups that rays treat alike share one: a geometry of its own for each would cost 65 kB,

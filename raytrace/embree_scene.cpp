@@ -126,7 +126,7 @@ bool EmbreeScene::nearest(const Ray& ray, uint32_t mask, PolygonHit& hit) const 
   return impl_->trace(ray, 0, std::max(ray.bias, 0.0f), mask, traversal, hit);
 }
 
-void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, Level level, Surroundings& out) const {
+void EmbreeScene::around(const vec3& P, float reach, uint32_t mask, TessellationLevel level, Surroundings& out) const {
   struct Asked {
     const Impl& scene;
     uint32_t mask;

@@ -34,7 +34,7 @@ class EmbreeScene {
 
   /// Collects all polygons that rays of this mask and level may meet within `reach` of P at shutter open. It gives up
   /// where there are chunks, trimmed surfaces or fading ones.
-  void around(const vec3& P, float reach, uint32_t mask, Level level, Surroundings& out) const;
+  void around(const vec3& P, float reach, uint32_t mask, TessellationLevel level, Surroundings& out) const;
 
   /// In one traversal, fills `list` with all hits at |t| <= window, unsorted, and `beyond` with the nearest after that.
   /// Returns false if there is none beyond before tMax.

@@ -93,8 +93,9 @@ void EmbreeWorld::attachGroups(const RayGroups& all, bool solids) {
     if (g.solid != solids) continue;
     const auto plain = static_cast<uint32_t>(g.quads.size() - g.onlyCoarse),
                coarse = static_cast<uint32_t>(g.onlyCoarse);
-    for (const auto& [run, mask] : {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(all.masks[i])),
-                                    std::pair(Geometry::Run{i, plain, coarse}, maskAt(all.masks[i], Level::Coarse))})
+    for (const auto& [run, mask] :
+         {std::pair(Geometry::Run{i, 0, plain}, maskAtAllLevels(all.masks[i])),
+          std::pair(Geometry::Run{i, plain, coarse}, maskAt(all.masks[i], TessellationLevel::Coarse))})
       if (run.count > 0)
         alike[{mask, all.opaque[i], g.flipsNormal, g.trimmed, g.laterP.size(), g.detail.lo, g.detail.hi,
                g.quads.size() < kManyQuads ? 0 : i + 1}]

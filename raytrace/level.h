@@ -5,7 +5,7 @@
 namespace tomales {
 
 /// Polygons of about one pixel (times sqrt(ShadingRate)), of three pixels, and those of raytrace/coarse_rate.h.
-enum class Level : uint8_t { Fine, Medium, Coarse };
+enum class TessellationLevel : uint8_t { Fine, Medium, Coarse };
 /// The finer levels, which are made where rays come; coarse polygons are always there.
 constexpr int kLevelsInChunks = 2;
 

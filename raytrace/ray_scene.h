@@ -30,10 +30,10 @@ struct RayScene::Impl {
   bool addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found, PolygonHit& beyond) const;
   vec3 transmittance(const PolygonHit& hit) const { return 1.0f - scene.groups[hit.group].attributes->opacity; }
 
-  Level levelOf(const Ray& ray, const vec3& P) const;
+  TessellationLevel levelOf(const Ray& ray, const vec3& P) const;
   /// Returns the least radius of rays that leave a point which a ray has met at this level. They must see no finer
   /// polygons, because the point lies on polygons of that level. The result is 0 for groups without levels.
-  float leastRadius(uint32_t group, Level met, const vec3& P) const;
+  float leastRadius(uint32_t group, TessellationLevel met, const vec3& P) const;
 
   const Scene& scene;
   const Camera& camera;

@@ -161,16 +161,19 @@ Hit RayScene::Impl::resolveChunk(const Ray& ray, const PolygonHit& hit) const {
 
 /// Returns the level whose polygons are as wide as the ray, seen from the eye. The hit is assumed to be as far from P
 /// as P is from the eye.
-Level RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
-  if (chunks.all().empty()) return Level::Fine;
+TessellationLevel RayScene::Impl::levelOf(const Ray& ray, const vec3& P) const {
+  if (chunks.all().empty()) return TessellationLevel::Fine;
   const float width_px = 2 * std::max(ray.spread * glm::length(P), ray.radius) / std::max(camera.pixelSize(P), 1e-20f);
-  return width_px >= kCoarseWidth_px ? Level::Coarse : width_px >= kMediumWidth_px ? Level::Medium : Level::Fine;
+  return width_px >= kCoarseWidth_px   ? TessellationLevel::Coarse
+         : width_px >= kMediumWidth_px ? TessellationLevel::Medium
+                                       : TessellationLevel::Fine;
 }
 
-float RayScene::Impl::leastRadius(uint32_t group, Level met, const vec3& P) const {
+float RayScene::Impl::leastRadius(uint32_t group, TessellationLevel met, const vec3& P) const {
   constexpr float kHalfAndRounding = 0.5001f;
-  if (met == Level::Fine || !chunks.has(group)) return 0;
-  return kHalfAndRounding * (met == Level::Coarse ? kCoarseWidth_px : kMediumWidth_px) * camera.pixelSize(P);
+  if (met == TessellationLevel::Fine || !chunks.has(group)) return 0;
+  return kHalfAndRounding * (met == TessellationLevel::Coarse ? kCoarseWidth_px : kMediumWidth_px) *
+         camera.pixelSize(P);
 }
 
 RayScene::RayScene(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings,
@@ -224,7 +227,7 @@ void RayScene::prepareOrigin(int group, const vec3& P, float edgeLength, Ray& ra
   const auto& given = impl_->scene.groups[g].attributes->trace;
   const CoarseGroup& coarse = impl_->groups[g];
   ray.level = impl_->levelOf(ray, P);
-  const float ofCoarse = ray.level == Level::Coarse ? coarse.coarseDeviation : 0.0f;
+  const float ofCoarse = ray.level == TessellationLevel::Coarse ? coarse.coarseDeviation : 0.0f;
   const float deviation = std::max({coarse.deviation, ofCoarse, impl_->chunks.deviation(g, ray.level)});
   const float scale = glm::length(P) + coarse.size;
   // Polygons that are farther from their surface than it is large stand for nothing that a ray could start from, and

@@ -39,7 +39,7 @@ struct Ray {
   int group = -1;
   float time = 0;  ///< The share of the shutter that has passed, 0..1.
   /// The level that it sees of surfaces that have several. It is one level, so that the ray does not slip between two.
-  Level level = Level::Fine;
+  TessellationLevel level = TessellationLevel::Fine;
   const RayFilter* filter = nullptr;           ///< Null: all hits pass.
   const Surroundings* surroundings = nullptr;  ///< The surroundings of its origin (RayScene::lookAround), or null.
 };

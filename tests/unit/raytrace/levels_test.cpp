@@ -30,7 +30,7 @@ struct LevelledWorld : World {
 
 TEST(Levels, ARayFromWithinAClosedSurfaceMeetsItAtAnyLevel) {
   const LevelledWorld world(TessellationMode::Multiresolution);
-  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse})
+  for (const TessellationLevel level : {TessellationLevel::Fine, TessellationLevel::Medium, TessellationLevel::Coarse})
     for (uint32_t i = 0; i < 20000; ++i) {
       Ray ray{{0.1f, -0.05f, 4.02f}, anyDirection(i)};
       ray.level = level;
@@ -45,7 +45,7 @@ TEST(Levels, ARayFromWithinAClosedSurfaceMeetsItAtAnyLevel) {
 TEST(Levels, WideRaysMeetCoarsePolygonsAndNarrowOnesFine) {
   const LevelledWorld world(TessellationMode::Multiresolution, 1 << 30, false);
   double off[3] = {0, 0, 0};
-  for (const Level level : {Level::Fine, Level::Medium, Level::Coarse})
+  for (const TessellationLevel level : {TessellationLevel::Fine, TessellationLevel::Medium, TessellationLevel::Coarse})
     for (uint32_t i = 0; i < 5000; ++i) {
       Ray ray{{0, 0, 4}, anyDirection(i)};
       ray.level = level;
@@ -56,17 +56,17 @@ TEST(Levels, WideRaysMeetCoarsePolygonsAndNarrowOnesFine) {
   EXPECT_LT(2 * off[1], off[2]);
   Ray ray{{0, 0, 4}, {0, 0, 1}};
   world.rays->prepareOrigin(0, ray.origin, 0, ray);
-  EXPECT_EQ(ray.level, Level::Fine);
+  EXPECT_EQ(ray.level, TessellationLevel::Fine);
   ray.spread = 0.04f;
   world.rays->prepareOrigin(0, ray.origin, 0, ray);
-  EXPECT_EQ(ray.level, Level::Coarse);
+  EXPECT_EQ(ray.level, TessellationLevel::Coarse);
   EXPECT_GT(ray.offset, off[2]) << "the offset is that of the level that the ray meets";
 }
 
 TEST(Levels, WhatLeavesAHitSeesNoFinerLevel) {
   LevelledWorld world(TessellationMode::Multiresolution, 1 << 30, false);
   const RayScene::Impl rays(world.scene, *world.camera, *world.shading, {}, world.log);
-  for (const Level met : {Level::Fine, Level::Medium, Level::Coarse})
+  for (const TessellationLevel met : {TessellationLevel::Fine, TessellationLevel::Medium, TessellationLevel::Coarse})
     for (uint32_t i = 0; i < 100; ++i) {
       const vec3 P = vec3(0, 0, 4) + anyDirection(i);
       Ray ray{P, {0, 0, 1}};
@@ -97,7 +97,7 @@ std::vector<Hit> hitsOf(const World& world, int threads) {
   parallelFor(hits.size(), 16, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       Ray ray{{0.1f, -0.05f, 4.02f}, anyDirection(static_cast<uint32_t>(i))};
-      ray.level = static_cast<Level>(i % 3);
+      ray.level = static_cast<TessellationLevel>(i % 3);
       ray.offset = i % 2 ? 1e-3f : 0.0f;
       hits[i] = world.rays->closest(ray, kMaskDiffuse);
     }
@@ -153,7 +153,7 @@ std::vector<Hit> fieldHits(int threads) {
   for (int j = 0; j <= 128; ++j)  // through the edges of the patches, which two of them share
     for (int i = 0; i <= 128; ++i) {
       Ray ray{{static_cast<float>(i - 64) / 64.0f, static_cast<float>(j - 64) / 64.0f, 0}, {0, 0, 1}};
-      ray.level = Level::Coarse;
+      ray.level = TessellationLevel::Coarse;
       hits.push_back(world.rays->closest(ray, kMaskDiffuse));
     }
   return hits;
@@ -202,7 +202,7 @@ TEST(Levels, AWideOriginSeesCoarsePolygonsToo) {
   Ray ray{{0, 0, 4}, {0, 0, 1}};
   ray.radius = 0.2f;
   world.rays->prepareOrigin(0, ray.origin, 0, ray);
-  EXPECT_EQ(ray.level, Level::Coarse);
+  EXPECT_EQ(ray.level, TessellationLevel::Coarse);
 }
 
 struct Block {
