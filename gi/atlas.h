@@ -27,7 +27,7 @@ class IrradianceAtlas {
 
   /// Names a map that was made from another world than this, if there is one. A world of 0, and maps that do not name
   /// theirs, match any.
-  std::optional<std::string> strange(uint64_t world) const;
+  std::optional<std::string> mapOfOtherWorld(uint64_t world) const;
 
   /// Returns E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data.
   /// `acrossWalls`: as in BrickMap::lookup().

@@ -42,8 +42,8 @@ struct MapNames {
   uint64_t world = 0;  ///< AtlasSettings::world of the groups.
   std::set<std::string> all() const;
   /// Returns the maps that gather rays look up: all but that of media, which shaders read.
-  std::set<std::string> ofReflectors() const;
-  MapNames ofSurfaces() const;  ///< The same without caustics and media: baked light has no maps of these.
+  std::set<std::string> surfaceMaps() const;
+  MapNames withoutCausticsAndMedia() const;  ///< The same without caustics and media: baked light has no maps of these.
 };
 MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasSettings& settings);
 

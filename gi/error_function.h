@@ -42,8 +42,8 @@ struct ErrorFunctionInfo {
   uint32_t without = 0;  ///< Bits of the amendments that records of this function do without.
   /// The values of CacheSettings for `maxerror` 1. They are chosen so that one `maxerror` means the same for all
   /// functions. The Hessian, which knows where light is even, makes about as many records as the others.
-  float kappa = 1, maxPixels = 10, minPixels = 1.5f, enough = 0.05f;
-  /// True if minPixels grows with `maxerror`, and `enough` falls with it. Then fewer records lie close to edges, and
+  float kappa = 1, maxPixels = 10, minPixels = 1.5f, minWeight = 0.05f;
+  /// True if minPixels grows with `maxerror`, and `minWeight` falls with it. Then fewer records lie close to edges, and
   /// fewer overlap: their error is no noise, which overlapping would average (docs/decisions/0106).
   bool limitsFollowError = false;
 
@@ -63,7 +63,7 @@ inline constexpr ErrorFunctionInfo kErrorFunctions[] = {
      .kappa = 0.87f,
      .maxPixels = 40,
      .minPixels = 1,
-     .enough = 0.2f,
+     .minWeight = 0.2f,
      .limitsFollowError = true},
     {.function = ErrorFunction::Split,
      .name = "split",

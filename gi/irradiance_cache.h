@@ -24,7 +24,7 @@ struct CacheSettings {
   /// R+ (Attribute "irradiance" "maxpixeldist") and R- of eq. 3, in roots of the projected pixel area.
   float maxPixels = infoOf(ErrorFunction::Screen).maxPixels, minPixels = infoOf(ErrorFunction::Screen).minPixels;
   /// Sum of weights that a point needs to be interpolated; with less it gets its own record.
-  float enough = infoOf(ErrorFunction::Screen).enough;
+  float minWeight = infoOf(ErrorFunction::Screen).minWeight;
   bool operator==(const CacheSettings&) const = default;
 };
 

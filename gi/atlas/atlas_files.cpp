@@ -114,7 +114,7 @@ MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasS
   return names;
 }
 
-std::set<std::string> MapNames::ofReflectors() const {
+std::set<std::string> MapNames::surfaceMaps() const {
   std::set<std::string> out(global.begin(), global.end());
   out.insert(caustic.begin(), caustic.end());
   out.erase("");
@@ -122,12 +122,12 @@ std::set<std::string> MapNames::ofReflectors() const {
 }
 
 std::set<std::string> MapNames::all() const {
-  std::set<std::string> out = ofReflectors();
+  std::set<std::string> out = surfaceMaps();
   if (!volume.empty()) out.insert(volume);
   return out;
 }
 
-MapNames MapNames::ofSurfaces() const {
+MapNames MapNames::withoutCausticsAndMedia() const {
   MapNames out = *this;
   out.caustic.assign(caustic.size(), "");
   out.volume.clear();

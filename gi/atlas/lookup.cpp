@@ -34,7 +34,7 @@ IrradianceAtlas::IrradianceAtlas(const fs::path& folder, const Scene& scene, con
     : cache_(cacheBytes), toWorld_(scene), log_(log) {
   std::map<std::string, const BrickMap*> byName{{"", nullptr}};
   openCaustics(folder / "photons", names);
-  for (const std::string& name : names.ofReflectors())
+  for (const std::string& name : names.surfaceMaps())
     byName[name] = caustics_.contains(name) ? nullptr : open(atlasFile(folder, name, ".bkm"));
   for (const std::string& name : names.global) mapOfGroup_.push_back(byName.at(name));
   for (const std::string& name : names.caustic) causticOfGroup_.push_back(byName.at(name));
@@ -80,7 +80,7 @@ const BrickMap* IrradianceAtlas::open(const fs::path& file) {
   return maps_.back().get();
 }
 
-std::optional<std::string> IrradianceAtlas::strange(uint64_t world) const {
+std::optional<std::string> IrradianceAtlas::mapOfOtherWorld(uint64_t world) const {
   for (const auto& map : maps_)
     if (const uint64_t from = map->file().madeFrom().world; from != 0 && world != 0 && from != world)
       return map->file().path();

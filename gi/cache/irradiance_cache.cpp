@@ -48,14 +48,14 @@ struct IrradianceCache::Impl {
   const bool correctsMean = has(Amendment::SecondOrder), fadesBehind = has(Amendment::Behind);
 
   bool has(Amendment amendment) const { return isOn(amendment, info); }
-  float size(const IrradianceRecord& r) const {
-    return std::visit([&](const auto& equations) { return equations.size(r); }, published);
+  float unclampedRadius(const IrradianceRecord& r) const {
+    return std::visit([&](const auto& equations) { return equations.unclampedRadius(r); }, published);
   }
   float reach(float recordSize, float pixelSize) const { return rangeAt(pixelSize, 1).radiusOf(recordSize); }
 
   void insert(uint32_t index) {
     const IrradianceRecord& r = records[index];
-    tree.insert(index, r.position, size(r), reach(size(r), r.pixelSize));
+    tree.insert(index, r.position, unclampedRadius(r), reach(unclampedRadius(r), r.pixelSize));
   }
 
   // The new record knows E at its place, to which older records are extrapolated, and the other way round. Where the
@@ -96,11 +96,11 @@ struct IrradianceCache::Impl {
     tree.visit(region, reachOf, [&](uint32_t i) {
       const IrradianceRecord& r = records[i];
       const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
-      const float radius = std::min(reachOf(size(r)), (1 + kSlack) * r.limit);
+      const float radius = std::min(reachOf(unclampedRadius(r)), (1 + kSlack) * r.limit);
       if (dot(off, off) <= radius * radius) search.near.push_back(i);
     });
     std::ranges::sort(search.near);
-    search.vicinity.assign(search.near, records, [this](const IrradianceRecord& r) { return size(r); });
+    search.vicinity.assign(search.near, records, [this](const IrradianceRecord& r) { return unclampedRadius(r); });
   }
 
   /// Replaces search.found by the candidates at a place. Pre: findNear() has been called for a region around it. The
@@ -161,7 +161,7 @@ struct IrradianceCache::Impl {
     if (info.needsCurvature())
       for (const Candidate& c : candidates) {
         const IrradianceRecord& r = records[c.record];
-        const float far = reach(size(r), pixelSize);
+        const float far = reach(unclampedRadius(r), pixelSize);
         out += 0.5f * c.weight / weight * bentBy(r, light.empty() ? r.light : light[c.record], step, far);
       }
     return out;
@@ -215,7 +215,7 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   impl.disagreements.add(luminance(record.light.E));
   if (!(impl.settings.kappa < kInfinity)) return;
   if (impl.has(Amendment::Slopes))
-    limitDerivatives(impl.records.back(), impl.reach(impl.size(record), record.pixelSize));
+    limitDerivatives(impl.records.back(), impl.reach(impl.unclampedRadius(record), record.pixelSize));
   impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
   impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
 }

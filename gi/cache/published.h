@@ -1,7 +1,7 @@
 // Private to gi/irradiance_cache: the published rules of how far a record may be used, and nothing else. The amendments
-// of this renderer are in gi/cache/amendments. Each type has the size of a record, from which its radius follows; the
-// weight of a record at a point; and the least cosine between normals that has a weight. `position`: the distance to
-// the record over its radius; `angle`: sqrt(1 - n.ni).
+// of this renderer are in gi/cache/amendments. Each type has the radius of a record before the size of pixels limits
+// it; the weight of a record at a point; and the least cosine between normals that has a weight. `position`: the
+// distance to the record over its radius; `angle`: sqrt(1 - n.ni).
 #pragma once
 #include <variant>
 
@@ -16,7 +16,7 @@ struct Screen {
   static constexpr float kMaxAngleTerm = 0.0151922470f;  ///< 1 - cos(alpha+), alpha+ = 10 degrees (eq. 4).
   float kappa;
 
-  static float size(const IrradianceRecord& r) { return r.closest * 0.5f; }  // eq. 3
+  static float unclampedRadius(const IrradianceRecord& r) { return r.closest * 0.5f; }  // eq. 3
   float weight(float position, float angle) const {
     return std::max(0.0f, 1 - std::max(position, kappa * angle / std::sqrt(kMaxAngleTerm)));
   }
@@ -28,7 +28,7 @@ struct Screen {
 struct SplitSphere {
   float kappa;
 
-  static float size(const IrradianceRecord& r) { return r.harmonicMean; }
+  static float unclampedRadius(const IrradianceRecord& r) { return r.harmonicMean; }
   float weight(float position, float angle) const {
     return std::max(0.0f, 1 / std::max(position + kappa * angle, 1e-4f) - 1);
   }
@@ -38,7 +38,7 @@ struct SplitSphere {
 /// Schwarzhaupt et al. 2012: the radius follows from the second derivatives (gi/gather/hessian.h). All else is as in
 /// Screen.
 struct Hessian : Screen {
-  float size(const IrradianceRecord& r) const { return std::min(r.smoothRadius, r.closest * kappa); }
+  float unclampedRadius(const IrradianceRecord& r) const { return std::min(r.smoothRadius, r.closest * kappa); }
 };
 
 using Published = std::variant<Screen, SplitSphere, Hessian>;

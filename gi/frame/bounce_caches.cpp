@@ -158,7 +158,7 @@ void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& 
       for (size_t i = begin; i < end; ++i) {
         const GatherPoint& p = candidates[i];
         open[i] =
-            phaseOf(p.key) == phase && levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.enough;
+            phaseOf(p.key) == phase && levels_[0].lookup(p.position, p.normal, p.pixelSize).weight < kCoarse.minWeight;
       }
     });
     std::vector<GatherPoint> fresh;

@@ -12,10 +12,10 @@ constexpr int kAuditBounces = 16;
 CacheSettings cacheSettings(ErrorFunction function, float maxError) {
   const ErrorFunctionInfo& info = infoOf(function);
   CacheSettings out{function, maxError > 0 ? info.kappa / maxError : kInfinity, info.maxPixels, info.minPixels,
-                    info.enough};
+                    info.minWeight};
   if (info.limitsFollowError) {
     out.minPixels *= maxError;
-    out.enough /= std::max(1.0f, maxError);
+    out.minWeight /= std::max(1.0f, maxError);
   }
   return out;
 }

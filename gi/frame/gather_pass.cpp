@@ -172,10 +172,10 @@ class GatherPass {
     state_.caches[cache].cache.lookup(places, known.data());
     OccluderSearch occluders(*tools_->rays, state_.caches[cache].key.gather);
     const bool isNew = caches_.isNew(cache);
-    const float enough = state_.caches[cache].key.cache.enough;
+    const float minWeight = state_.caches[cache].key.cache.minWeight;
     for (size_t i = 0; i < asked.size(); ++i) {
       const IrradianceEstimate& k = known[i];
-      if (k.weight < enough || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
+      if (k.weight < minWeight || (k.inconsistent && (isNew || isAnew(asked[i]))) ||
           (isLight(cache) && isOn(Amendment::Occluders) && !k.hasRecord &&
            occluders.isUnderOccluder(asked[i].point, k.closest, k.occluderHeight)))
         out.push_back(asked[i]);

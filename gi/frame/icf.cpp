@@ -21,9 +21,9 @@ void fields(A& a, HemisphereQuery& x) {
 template <class A>
 void fields(A& a, CacheKey& x) {
   auto& [cache, gather] = x;
-  auto& [errorFunction, kappa, maxPixels, minPixels, enough] = cache;
+  auto& [errorFunction, kappa, maxPixels, minPixels, minWeight] = cache;
   auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, asked] = gather;
-  each(a, errorFunction, kappa, maxPixels, minPixels, enough, samples, maxDistance, seed, light, curvature, maxError,
+  each(a, errorFunction, kappa, maxPixels, minPixels, minWeight, samples, maxDistance, seed, light, curvature, maxError,
        depth, indirect, mirrored, subset, asked);
 }
 

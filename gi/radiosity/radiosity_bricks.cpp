@@ -79,7 +79,7 @@ RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, c
                                  const Camera& camera, const MapNames& atlas, const RadiosityBrickSettings& settings,
                                  size_t cacheBytes, Stats& stats, Log& log)
     : scene_(rays.scene()) {
-  const MapNames names = atlas.ofSurfaces();
+  const MapNames names = atlas.withoutCausticsAndMedia();
   const fs::path own = folder / "radiosity";  // a folder of its own, so that FOLDER may be that of an atlas as well
   makeAtlasFolder(own);
   const std::vector<int> objects = bakedObjects(scene_, shading, log);

@@ -26,7 +26,7 @@ bool asksPoints(const RenderSettings& settings, const ShadingSystem& shading) {
 /// Makes brick maps of those point clouds that exist, so that a ray finds the mean over its footprint.
 void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNames& names,
                     const BrickSettings& settings, Log& log) {
-  for (const std::string& name : names.ofReflectors()) {
+  for (const std::string& name : names.surfaceMaps()) {
     const fs::path points = atlasFile(clouds, name, ".ptc");
     if (!fs::exists(points)) {
       log.report(Severity::Missing, "points-none", {},
@@ -41,7 +41,7 @@ void bricksOfPoints(const fs::path& clouds, const fs::path& folder, const MapNam
 }
 
 void warnOfStrangers(const IrradianceAtlas& maps, uint64_t world, Log& log) {
-  if (const auto strange = maps.strange(world))
+  if (const auto strange = maps.mapOfOtherWorld(world))
     log.report(
         Severity::Warning, "atlas-stale", {},
         fmt::format("irradiance map \"{}\" was made before the scene was changed, or from another; it is used as it is",
@@ -154,7 +154,7 @@ std::unique_ptr<const IrradianceAtlas> openBaked(const Scene& scene, const Shadi
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene, shading);
     auto maps = std::make_unique<const IrradianceAtlas>(settings.stored.bakedFolder, scene,
-                                                        mapNames(scene, shading, atlas).ofSurfaces(),
+                                                        mapNames(scene, shading, atlas).withoutCausticsAndMedia(),
                                                         brickCacheBytes(settings.resources), log);
     warnOfStrangers(*maps, atlas.world, log);
     return maps;
@@ -168,7 +168,7 @@ void bakeGathered(const GiServices& services, const DeepFrame& layout, const Til
                   const ShadingSystem& shading, const RenderSettings& settings, Log& log) {
   try {
     const AtlasSettings atlas = atlasSettings(settings, scene, shading);
-    const MapNames names = mapNames(scene, shading, atlas).ofSurfaces();
+    const MapNames names = mapNames(scene, shading, atlas).withoutCausticsAndMedia();
     makeAnewWhatIsDamaged([&] { services.bake(layout, tiles, settings.stored.bakedFolder, names, atlas.world); }, log);
   } catch (const Stopped&) {  // the records that were gathered before stay
   } catch (const std::runtime_error& e) {

@@ -56,7 +56,7 @@ std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& set
   out.photons = job.method().mode == GiMode::Atlas;
   out.world = worldSum(scene, out.photons);
   const MapNames names = mapNames(scene, job.shading(), atlasSettings(settings, scene, job.shading()));
-  out.maps = out.photons ? names.all() : names.ofSurfaces().all();
+  out.maps = out.photons ? names.all() : names.withoutCausticsAndMedia().all();
   return out;
 }
 

@@ -153,8 +153,8 @@ TEST_F(Atlas, MapsWithoutTheirPhotonsAreUsedAndKnownForStrangers) {
   SceneBuilder b;
   World world(b.scene);
   const IrradianceAtlas atlas(folder, world.scene, {{"left", "right"}, {}, {}, {0, 0}}, 1 << 20, world.log);
-  EXPECT_TRUE(atlas.strange(1).has_value());
-  EXPECT_FALSE(atlas.strange(0).has_value());
+  EXPECT_TRUE(atlas.mapOfOtherWorld(1).has_value());
+  EXPECT_FALSE(atlas.mapOfOtherWorld(0).has_value());
 }
 
 /// A mirror of 2 x 2 throws the light of a distant lamp onto a wall of two surfaces, which have one caustic map.

@@ -309,7 +309,7 @@ TEST(GatherPass, TheHessiansOwnRadiusGrowsWithTheFourthRootOfMaxErrorAndItsFloor
   for (const float maxError : {0.5f, 4.0f}) {
     const CacheSettings &some = planned(maxError).cache, &one = planned(1).cache;
     EXPECT_NEAR(some.minPixels / some.kappa, maxError * maxError * one.minPixels / one.kappa, 1e-4f);
-    EXPECT_NEAR(some.enough, maxError > 1 ? one.enough / maxError : one.enough, 1e-6f) << "so fewer overlap";
+    EXPECT_NEAR(some.minWeight, maxError > 1 ? one.minWeight / maxError : one.minWeight, 1e-6f) << "so fewer overlap";
     EXPECT_EQ(planned(maxError).gather.maxError, maxError);
   }
 }

@@ -28,7 +28,7 @@ IrradianceExpansion someShare(uint32_t name) {
 /// Records on a plane whose light is the sum of their shares, some of it too steep to be extrapolated.
 IrradianceCache plane(ErrorFunction function) {
   const ErrorFunctionInfo& info = infoOf(function);
-  IrradianceCache cache({vec3(-1), vec3(1)}, {function, info.kappa, info.maxPixels, info.minPixels, info.enough});
+  IrradianceCache cache({vec3(-1), vec3(1)}, {function, info.kappa, info.maxPixels, info.minPixels, info.minWeight});
   for (uint32_t i = 0; i < 200; ++i) {
     IrradianceRecord r{};
     r.position = {2 * unitFloat(hashCombine(i, 11u)) - 1, 2 * unitFloat(hashCombine(i, 12u)) - 1, 0};
