@@ -29,7 +29,7 @@ struct CacheSettings {
 };
 
 struct IrradianceEstimate {
-  vec3 E;
+  vec3 E;  ///< E/pi per channel
   vec3 dominant[3];
   float weight = 0;           ///< Sum of weights; 0: nothing usable was found.
   bool inconsistent = false;  ///< The records used differ by more than their noise explains.

@@ -45,7 +45,7 @@ struct Ray {
 };
 
 struct Hit {
-  float t = kInfinity;  ///< Distance from the ray's own origin.
+  float t = kInfinity;  ///< Distance from the ray's own origin; may be negative, down to -offset, with the hit list.
   int object = -1;      ///< -1: nothing was hit.
   uint32_t patch = 0;
   float u = 0, v = 0;       ///< Patch parameters.
@@ -91,7 +91,7 @@ enum RayMask : uint32_t {
   kMaskSpecular = 2,
   kMaskTransmission = 4,
   kMaskPhoton = 8,
-  kMaskCamera = 16
+  kMaskCamera = 16  ///< For Volumes alone: in Embree's masks this bit belongs to the next level.
 };
 
 inline uint32_t maskOf(const Visibility& v) {

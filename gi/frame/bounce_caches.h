@@ -1,6 +1,7 @@
 // Private to gi: irradiance caches for the points that gather rays meet, one for each further bounce. They are coarse,
 // because one record averages hundreds of lookups; a hit that none of their records serves goes on as a path. E here is
 // E/pi. Threads: filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
+// Space: current.
 #pragma once
 #include <atomic>
 

@@ -1,5 +1,5 @@
 // Private to gi: the caches that the shade groups of one frame fill and use, and which of them hold its records
-// already.
+// already. Lengths: current space.
 #pragma once
 #include "gi/frame/state.h"
 

@@ -1,4 +1,4 @@
-// Private to gi: the facts about a frame that a gather pass needs before its first phase.
+// Private to gi: the facts about a frame that a gather pass needs before its first phase. Space: current.
 #pragma once
 #include <atomic>
 #include <vector>

@@ -1,4 +1,5 @@
 // Private to gi: where the light of a batch of points is gathered, and in which order the gather pass visits pixels.
+// Space: current.
 #pragma once
 #include "gi/frame/state.h"
 

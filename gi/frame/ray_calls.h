@@ -1,4 +1,4 @@
-// Private to gi: rays that shaders trace.
+// Private to gi: rays that shaders trace. Space: current.
 #pragma once
 #include "gi/frame/state.h"
 

@@ -1,4 +1,5 @@
-// Private to gi: origins and times of rays that leave points which may move.
+// Private to gi: origins and times of rays that leave points which may move. Space: current. Times: shares of the
+// shutter.
 #pragma once
 #include "gi/frame/state.h"
 

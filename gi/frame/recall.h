@@ -1,4 +1,5 @@
-// Private to gi: answers that an earlier run has left for a frame that is shaded again (RayAnswers).
+// Private to gi: answers that an earlier run has left for a frame that is shaded again (RayAnswers). Space: current.
+// Irradiance: E/pi.
 #pragma once
 #include "gi/frame/record_lookup.h"
 

@@ -1,4 +1,5 @@
-// Private to gi: the fields that files keep of a record, of the light that its rays found, and of its point.
+// Private to gi: the fields that files keep of a record, of the light that its rays found, and of its point. Space and
+// units: those of these structures.
 #pragma once
 #include "gi/gather.h"
 #include "reyes/base/pack.h"

@@ -1,4 +1,4 @@
-// Private to gi: what the records of a frame answer at the points of a batch.
+// Private to gi: what the records of a frame answer at the points of a batch. Space: current. Irradiance: E/pi.
 #pragma once
 #include "gi/frame/gather_places.h"
 

@@ -1,6 +1,6 @@
 // Private to gi: makes records at many points in parallel, slice by slice, and takes over the slices that an
 // interrupted run has made (Checkpoint). All slices of a frame have the same order in every run, so their number names
-// them.
+// them. Space: that of the points.
 #pragma once
 #include <functional>
 #include <vector>

@@ -1,4 +1,4 @@
-// Private to gi: the members of GiServices, and the parts that it is made of.
+// Private to gi: the members of GiServices, and the parts that it is made of. Space: current. Irradiance: E/pi.
 #pragma once
 #include "gi/frame/learnt_light.h"
 #include "gi/frame/measured_light.h"
