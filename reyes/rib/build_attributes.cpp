@@ -1,7 +1,7 @@
 // Attributes other than shaders (RISpec 3.2 section 4.2).
 #include <fmt/format.h>
 
-#include "reyes/base/deep_stack.h"
+#include "reyes/attribute_table.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/refusals.h"
 
@@ -107,135 +107,11 @@ void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
   s.scope.trim = std::make_shared<TrimLoops>(TrimLoops{s.scope.trim->loops, sense == "outside"});
 }
 
-vec3 color(const Param& p) { return p.floats.size() == 3 ? vec3(p.floats[0], p.floats[1], p.floats[2]) : vec3(1); }
-
-// "a,b" replaces the sets, "+a,b" joins sets and "-a,b" leaves them.
-void editMembership(std::set<std::string>& sets, std::string_view text) {
-  const bool joins = text.starts_with('+'), leaves = text.starts_with('-');
-  if (joins || leaves)
-    text.remove_prefix(1);
-  else
-    sets.clear();
-  while (!text.empty()) {
-    const size_t end = std::min(text.find_first_of(", "), text.size());
-    if (end > 0 && leaves) sets.erase(std::string(text.substr(0, end)));
-    if (end > 0 && !leaves) sets.emplace(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-}
-
-// The attribute of PRMan up to version 12: what shadow rays see, and how they find its opacity.
-void transmission(Attributes& a, const Param& p) {
-  a.visibility.transmission = p.strings[0] != "transparent";
-  a.transmissionHitMode = p.strings[0] == "shader" ? HitMode::Shader : HitMode::Primitive;
-}
-
-// The attribute of BMRT: "none", "opaque", "Os" and "shade" (its User Guide, attribute "render" "casts_shadows").
-void castsShadows(Attributes& a, const Param& p) {
-  a.visibility.transmission = p.strings[0] != "none";
-  a.transmissionHitMode = p.strings[0] == "shade" ? HitMode::Shader : HitMode::Primitive;
-}
-
-// "cache" reads files that may be missing; the object's shader gives the same result.
-HitMode hitMode(const Param& p) { return p.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader; }
-
-TessellationMode tessellationMode(const Param& p) {
-  const std::string& mode = p.strings[0];
-  return mode == "full"              ? TessellationMode::Full
-         : mode == "multiresolution" ? TessellationMode::Multiresolution
-                                     : TessellationMode::Fixed;
-}
-
-using Setter = void (*)(Attributes&, const Param&);
-const std::unordered_map<std::string_view, Setter>& numberSetters() {
-  static const std::unordered_map<std::string_view, Setter> table = {
-      {"displacementbound:sphere",
-       [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
-      {"bound:displacement",  // until PRMan 3.8
-       [](Attributes& a, const Param& p) { a.displacementBound = std::max(0.0f, p.number(0)); }},
-      {"visibility:camera", [](Attributes& a, const Param& p) { a.visibility.camera = p.number(1) != 0; }},
-      {"visibility:diffuse", [](Attributes& a, const Param& p) { a.visibility.diffuse = p.number(1) != 0; }},
-      {"visibility:specular", [](Attributes& a, const Param& p) { a.visibility.specular = p.number(1) != 0; }},
-      {"visibility:transmission", [](Attributes& a, const Param& p) { a.visibility.transmission = p.number(1) != 0; }},
-      {"visibility:trace",  // until PRMan 12
-       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
-      {"visibility:indirect",  // of the RIS era
-       [](Attributes& a, const Param& p) { a.visibility.diffuse = a.visibility.specular = p.number(1) != 0; }},
-      {"visibility:photon", [](Attributes& a, const Param& p) { a.visibility.photon = p.number(1) != 0; }},
-      {"trace:bias", [](Attributes& a, const Param& p) { a.trace.bias = p.number(0); }},
-      {"trace:offset", [](Attributes& a, const Param& p) { a.trace.offset = p.number(0); }},
-      {"trace:displacements",
-       [](Attributes& a, const Param& p) {
-         a.trace.displacements = p.number(0) != 0;
-         a.trace.displacementsGiven = true;
-       }},
-      {"trace:samplemotion", [](Attributes& a, const Param& p) { a.trace.sampleMotion = p.number(0) != 0; }},
-      {"trace:maxdiffusedepth",
-       [](Attributes& a, const Param& p) {
-         a.trace.maxDiffuseDepth = static_cast<int>(std::clamp<float>(p.number(1), 0, kMostBounces));
-       }},
-      {"trace:maxspeculardepth",
-       [](Attributes& a, const Param& p) {
-         a.trace.maxSpecularDepth = static_cast<int>(std::clamp<float>(p.number(2), 0, kMostBounces));
-       }},
-      {"trace:tessellation", [](Attributes& a, const Param& p) { a.trace.tessellation = p.number(1); }},
-      {"indirect:receive", [](Attributes& a, const Param& p) { a.indirect.receive = p.number(1) != 0; }},
-      {"indirect:gain", [](Attributes& a, const Param& p) { a.indirect.gain = p.number(1); }},
-      {"indirect:bleeding", [](Attributes& a, const Param& p) { a.indirect.bleeding = p.number(1); }},
-      {"indirect:bleedingcolor", [](Attributes& a, const Param& p) { a.indirect.bleedingColor = color(p); }},
-      {"radiosity:screentexels",
-       [](Attributes& a, const Param& p) {
-         a.radiosity = {true, p.number(0)};
-       }},
-      {"radiosity:worldtexels",
-       [](Attributes& a, const Param& p) {
-         a.radiosity = {false, p.number(0)};
-       }},
-      {"irradiance:maxerror", [](Attributes& a, const Param& p) { a.irradianceMaxError = p.number(0); }},
-      {"irradiance:maxpixeldist", [](Attributes& a, const Param& p) { a.irradianceMaxPixelDist = p.number(0); }},
-      {"cull:hidden", [](Attributes& a, const Param& p) { a.cull.hidden = p.number(1) != 0; }},
-      {"cull:backfacing", [](Attributes& a, const Param& p) { a.cull.backfacing = p.number(1) != 0; }},
-      {"dice:binary", [](Attributes& a, const Param& p) { a.binaryDice = p.number(0) != 0; }},
-      {"dice:rasterorient", [](Attributes& a, const Param& p) { a.rasterOrient = p.number(1) != 0; }},
-  };
-  return table;
-}
-
-const std::unordered_map<std::string_view, Setter>& textSetters() {
-  static const std::unordered_map<std::string_view, Setter> table = {
-      {"identifier:name", [](Attributes& a, const Param& p) { a.name = p.strings[0]; }},
-      {"visibility:transmission", transmission},
-      {"render:casts_shadows", castsShadows},
-      {"displacementbound:coordinatesystem",
-       [](Attributes& a, const Param& p) { a.displacementBoundSpace = p.strings[0]; }},
-      {"photon:globalmap", [](Attributes& a, const Param& p) { a.photon.globalMap = p.strings[0]; }},
-      {"photon:causticmap", [](Attributes& a, const Param& p) { a.photon.causticMap = p.strings[0]; }},
-      {"photon:shadingmodel", [](Attributes& a, const Param& p) { a.photon.shadingModel = p.strings[0]; }},
-      {"grouping:membership", [](Attributes& a, const Param& p) { editMembership(a.membership, p.strings[0]); }},
-      {"trace:tessellationmode", [](Attributes& a, const Param& p) { a.trace.rate = tessellationMode(p); }},
-      {"grouping:tracesubset", [](Attributes& a, const Param& p) { a.trace.subset = p.strings[0]; }},
-      {"shade:diffusehitmode", [](Attributes& a, const Param& p) { a.diffuseHitMode = hitMode(p); }},
-      {"shade:specularhitmode", [](Attributes& a, const Param& p) { a.specularHitMode = hitMode(p); }},
-      {"shade:transmissionhitmode", [](Attributes& a, const Param& p) { a.transmissionHitMode = hitMode(p); }},
-      {"indirect:surface", [](Attributes& a, const Param& p) { a.indirect.surface = p.strings[0]; }},
-  };
-  return table;
-}
-
-/// Checks the word that some attributes have; "cache" counts as "shader".
-void checkWord(GraphicsState& s, const Request& r, const std::string& key, const std::string& word) {
-  using Words = std::vector<std::string_view>;
-  static const std::unordered_map<std::string_view, Words> table = {
-      {"trace:tessellationmode", {"fixed", "multiresolution", "full"}},
-      {"shade:diffusehitmode", {"shader", "primitive", "cache"}},
-      {"shade:specularhitmode", {"shader", "primitive", "cache"}},
-      {"shade:transmissionhitmode", {"shader", "primitive", "cache"}},
-  };
-  const auto known = table.find(key);
-  if (known == table.end() || std::find(known->second.begin(), known->second.end(), word) != known->second.end())
-    return;
-  s.warnOnce(key + ' ' + word, r, "rib-unknown-attribute",
-             fmt::format("Attribute \"{}\" knows no \"{}\"; \"{}\" is taken", key, word, known->second[0]));
+/// Checks the word that some attributes have.
+void checkWord(GraphicsState& s, const Request& r, const NamedAttribute& row, const std::string& word) {
+  if (row.words.empty() || std::find(row.words.begin(), row.words.end(), word) != row.words.end()) return;
+  s.warnOnce(std::string(row.name) + ' ' + word, r, "rib-unknown-attribute",
+             fmt::format("Attribute \"{}\" knows no \"{}\"; \"{}\" is taken", row.name, word, row.words[0]));
 }
 
 // User attributes are read by name where they are used; all others have no effect.
@@ -244,14 +120,15 @@ void attribute(GraphicsState& s, const Request& r) {
   for (const Param& p : r.params) {
     const std::string key = category + ":" + p.name;
     const bool text = p.type == ValueType::String;
-    const auto& setters = text ? textSetters() : numberSetters();
+    const NamedAttribute* row = findNamedAttribute(key);
+    const auto set = !row ? nullptr : text ? row->setStrings : row->setNumbers;
     const bool empty = text ? p.strings.empty() : p.floats.empty() && p.ints.empty();
     if (category == "render") s.scope.edit().user[key] = p;  // shows that the scene was made for BMRT
     if (empty) {
       rejectAttribute(s, r, "\"" + key + "\" has no value");
-    } else if (const auto it = setters.find(key); it != setters.end()) {
-      if (text) checkWord(s, r, key, p.strings[0]);
-      it->second(s.scope.edit(), p);
+    } else if (set) {
+      if (text) checkWord(s, r, *row, p.strings[0]);
+      set(s.scope.edit(), p);
     } else if (key == "trimcurve:sense") {
       trimSense(s, r, text ? p.strings[0] : "");
     } else if (key == "shade:relativeshadingrate" || key == "shade:resetrelativeshadingrate") {

@@ -1,12 +1,8 @@
 // Options (RISpec 3.2 section 4.1). Values that make no picture are reported and leave the option as it was.
 #include <fmt/format.h>
 
-#include <climits>
-#include <filesystem>
-
-#include "reyes/base/deep_stack.h"
-#include "reyes/base/search_path.h"
 #include "reyes/rib/handlers.h"
+#include "reyes/rib/option_table.h"
 #include "reyes/rib/refusals.h"
 
 namespace tomales::rib {
@@ -162,77 +158,12 @@ void exposure(GraphicsState& s, const Request& r) {
   s.globals.options.exposureGamma = a[1];
 }
 
-/// Sets the search path of a category, before and after the map of folders.
-void setSearchPath(GraphicsState& s, const Request& r, const std::string& category, const std::string& path) {
-  Globals& g = s.globals;
-  // A scene renders from any folder.
-  const std::string inPlace = alsoWithin(mappedPath(path, g.dirMap), r.where.folder().string());
-  if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
-    return rejectOption(s, r,
-                        fmt::format("the search path \"{}\" would be longer than {} bytes", category.substr(0, 80),
-                                    kLongestSearchPath));
-  g.unmappedPaths[category] = path;
-  g.options.searchPaths[category] = inPlace;
-}
-
-void searchPath(GraphicsState& s, const Request& r, const Param& p) {
-  Globals& g = s.globals;
-  if (p.name == "dirmap") {
-    g.dirMap = readDirMap(p.strings);
-    for (const auto& [category, path] : std::map(g.unmappedPaths)) setSearchPath(s, r, category, path);
-    return;
-  }
-  std::string unset;
-  setSearchPath(s, r, p.name, expandSearchPath(p.strings[0], g.unmappedPaths[p.name], unset));
-  if (!unset.empty())
-    s.warn(r, "rib-variable", "the environment has no " + unset + "; it stands for nothing in the search path");
-}
-
-// Returns true if Tomales knows the option.
-bool knownOption(GraphicsState& s, const Request& r, const std::string& key, const Param& p) {
-  Options& o = s.globals.options;
-  const bool bucket = key == "limits:bucketsize";
-  if (key.starts_with("searchpath:") && !p.strings.empty()) {
-    searchPath(s, r, p);
-  } else if (bucket && p.ints.size() == 2) {
-    o.bucketWidth = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 4096));
-    o.bucketHeight = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[1]), 1, 4096));
-  } else if (key == "trace:maxdepth") {
-    o.maxRayDepth = static_cast<int>(clamped(s, r, p.number(10), 0, kMostBounces));
-  } else if (key == "shutter:offset") {
-    o.shutterOffset = p.number(0);
-  } else if (key == "render:prmanspecular") {  // the word of BMRT; that of Tomales wins, wherever it stands
-    o.user.try_emplace("shade:specular", wordParam("specular", p.number(0) != 0 ? "prman" : "rispec"));
-  } else if (key == "limits:gridsize" && p.ints.size() == 1) {
-    o.gridSize = static_cast<int>(clamped(s, r, static_cast<float>(p.ints[0]), 1, 65536));
-  } else if (key == "limits:othreshold" && p.floats.size() == 3) {
-    o.opaqueThreshold = {p.floats[0], p.floats[1], p.floats[2]};
-  } else if (key == "limits:zthreshold" && p.floats.size() == 3) {
-    o.depthThreshold = {p.floats[0], p.floats[1], p.floats[2]};
-  } else if (key == "bucket:order" && p.strings.size() == 1) {
-    static const std::set<std::string> orders = {"horizontal", "vertical", "zigzag-x", "zigzag-y",
-                                                 "spacefill",  "spiral",   "random"};
-    if (orders.contains(p.strings[0]))
-      o.bucketOrder = p.strings[0];
-    else if (p.strings[0] == "circle")  // the word of RenderMan for Maya
-      o.bucketOrder = "spiral";
-    else
-      s.warn(r, "rib-bucket-order", "no bucket order \"" + p.strings[0] + "\"; \"" + o.bucketOrder + "\" is used");
-  } else {
-    return key.starts_with("user:") || key.starts_with("shadow:bias") || key == "shade:specular" ||
-           key == "shade:arealight" || key == "texture:width" || key == "texture:filter" ||
-           key == "limits:texturememory" || key == "limits:geocachememory" || key == "ribparse:varsubst" ||
-           key == "trace:lightcut" || key == "trace:openings";
-  }
-  return true;
-}
-
 void option(GraphicsState& s, const Request& r) {
   const std::string& category = r.args[0].strings[0];
   for (const Param& p : r.params) {
     const std::string key = category + ":" + p.name;
     s.globals.options.user[key] = p;
-    if (!knownOption(s, r, key, p)) warnOfIgnored(s, r, key);
+    if (!setNamedOption(s, r, key, p)) warnOfIgnored(s, r, key);
   }
 }
 

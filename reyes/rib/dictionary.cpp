@@ -4,6 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "reyes/attribute_table.h"
+#include "reyes/rib/option_table.h"
+
 namespace tomales::rib {
 namespace {
 
@@ -47,38 +50,6 @@ constexpr Standard kStandard[] = {
     {"int", "maxdepth ignorenormals"},
     {"float[8]", "chromaticities"},
     {"int", "tiled multipart"},
-    // Names with a category are "category:name".
-    {"int[2]", "limits:bucketsize bucket:orderorigin"},
-    {"int",
-     "limits:gridsize limits:texturememory limits:eyesplits limits:threads limits:brickmemory "
-     "limits:geocachememory render:prmanspecular limits:maxshadinggrids statistics:endofframe trace:maxdepth "
-     "trace:lightcut trace:openings"},
-    {"color", "limits:othreshold limits:zthreshold"},
-    {"string",
-     "searchpath:archive searchpath:shader searchpath:texture searchpath:display searchpath:procedural "
-     "searchpath:resource searchpath:texturecache shade:specular shade:arealight texture:filter "
-     "searchpath:dirmap ribparse:varsubst "
-     "bucket:order statistics:filename statistics:xmlfilename"},
-    {"float", "shadow:bias shadow:bias0 shadow:bias1 shutter:offset texture:width"},
-    {"string",
-     "identifier:name identifier:shadinggroup grouping:membership grouping:tracesubset trace:tessellationmode "
-     "displacementbound:coordinatesystem "
-     "light:shadows indirect:surface photon:globalmap photon:causticmap photon:shadingmodel "
-     "dice:strategy trimcurve:sense shade:strategy shade:diffusehitmode shade:specularhitmode "
-     "shade:transmissionhitmode shade:camerahitmode render:casts_shadows"},
-    {"float",
-     "displacementbound:sphere bound:displacement trace:bias trace:offset trace:tessellation indirect:gain "
-     "indirect:bleeding "
-     "irradiance:maxerror irradiance:maxpixeldist irradiance:shadingrate radiosity:screentexels radiosity:worldtexels "
-     "shade:relativeshadingrate shade:resetrelativeshadingrate"},
-    {"color", "indirect:bleedingcolor"},
-    {"int",
-     "visibility:camera visibility:diffuse visibility:specular visibility:transmission visibility:photon "
-     "visibility:midpoint visibility:trace visibility:indirect trace:displacements trace:samplemotion "
-     "trace:maxdiffusedepth "
-     "trace:maxspeculardepth indirect:receive dice:rasterorient dice:binary dice:hair dice:roundcurve cull:hidden "
-     "cull:backfacing derivatives:centered derivatives:extrapolate photon:estimator irradiance:nsamples "
-     "stitch:enable sides:doubleshaded"},
 };
 
 constexpr std::pair<std::string_view, Storage> kStorages[] = {
@@ -148,11 +119,15 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
 }  // namespace
 
 Dictionary::Dictionary() {
+  const auto add = [this](std::string_view name, const char* declaration) {
+    declare(std::string(name), declaration);
+    (*names_)[std::string(name)].standard = true;
+  };
   for (const Standard& s : kStandard)
-    for (const std::string_view name : words(s.names)) {
-      declare(std::string(name), s.declaration);
-      (*names_)[std::string(name)].standard = true;
-    }
+    for (const std::string_view name : words(s.names)) add(name, s.declaration);
+  for (const NamedOption& row : namedOptions()) add(row.name, row.type);
+  for (const NamedAttribute& row : namedAttributes())
+    if (row.type) add(row.name, row.type);
 }
 
 bool Dictionary::declare(const std::string& name, const std::string& declaration) {

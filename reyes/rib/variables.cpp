@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "reyes/attribute_table.h"
+
 namespace tomales::rib {
 namespace {
 
 using Found = std::optional<std::string>;
 
-Found text(const std::map<std::string, Param>& all, const std::string& key) {
-  const auto it = all.find(key);
-  if (it == all.end()) return std::nullopt;
-  const Param& p = it->second;
+std::string text(const Param& p) {
   return p.type == ValueType::String ? (p.strings.empty() ? "" : p.strings[0]) : fmt::format("{}", p.number(0));
+}
+
+Found text(const UserParams& all, const std::string& key) {
+  const Param* p = findParam(all, key);
+  return p ? Found(text(*p)) : std::nullopt;
 }
 
 Found option(const Options& o, const std::string& key) {
@@ -19,20 +23,9 @@ Found option(const Options& o, const std::string& key) {
   return text(o.user, key);
 }
 
-// Returns the attributes with a place of their own that scenes ask about.
 Found attribute(const Attributes& a, const std::string& key) {
-  const auto flag = [](bool b) { return b ? "1" : "0"; };
-  if (key == "identifier:name") return a.name;
-  if (key == "visibility:camera") return flag(a.visibility.camera);
-  if (key == "visibility:diffuse") return flag(a.visibility.diffuse);
-  if (key == "visibility:specular") return flag(a.visibility.specular);
-  if (key == "visibility:transmission") return flag(a.visibility.transmission);
-  if (key == "visibility:photon") return flag(a.visibility.photon);
-  if (key == "displacementbound:sphere") return fmt::format("{}", a.displacementBound);
-  if (key == "Matte") return flag(a.matte);
-  if (key == "Sides") return fmt::format("{}", a.sides);
-  if (key == "ShadingRate") return fmt::format("{}", a.shadingRate);
-  return text(a.user, key);
+  const NamedAttribute* row = findNamedAttribute(key);
+  return row && row->get ? text(row->get(a)) : text(a.user, key);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // RSL's message passing: values of other shaders, of attributes, of options and of the renderer.
 #include <string_view>
 
+#include "reyes/attribute_table.h"
 #include "reyes/shade/elsewhere.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/services.h"
@@ -84,43 +85,8 @@ int32_t tellDisplaced(const Batch& batch, std::string_view name, int32_t* type, 
 int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   const Attributes& a = *batch.group.group->attributes;
   if (name.starts_with("Ri:")) name.remove_prefix(3);
-  const auto number = [&](float x) { return tell(batch, {x}, TM_FLOAT, type, out); };
-  const auto color = [&](const vec3& c) { return tell(batch, {c.x, c.y, c.z}, TM_COLOR, type, out); };
-  if (name == "ShadingRate") return number(a.shadingRate);
-  if (name == "Matte") return number(a.matte);
-  if (name == "Sides") return number(static_cast<float>(a.sides));
-  if (name == "Color") return color(a.color);
-  if (name == "Opacity") return color(a.opacity);
-  if (name == "ShadingInterpolation" || name == "Orientation" || name == "identifier:name" ||
-      name == "photon:globalmap" || name == "photon:causticmap") {
-    const std::string text = name == "identifier:name"                         ? a.name
-                             : name == "photon:globalmap"                      ? a.photon.globalMap
-                             : name == "photon:causticmap"                     ? a.photon.causticMap
-                             : name == "Orientation"                           ? (a.insideOut ? "inside" : "outside")
-                             : a.interpolation == ShadingInterpolation::Smooth ? "smooth"
-                                                                               : "constant";
-    batch.answer({}, text, TM_STRING, *type, *out);
-    return 1;
-  }
-  if (name == "DetailRange") return tell(batch, {a.detail.lo, a.detail.hi}, TM_FLOAT, type, out);
-  if (name == "TextureCoordinates") {
-    std::vector<float> st;
-    for (const vec2& c : a.textureCoordinates) {
-      st.push_back(c.x);
-      st.push_back(c.y);
-    }
-    return tell(batch, st, TM_FLOAT, type, out);
-  }
-  if (name == "displacementbound:sphere") return number(a.displacementBound);
-  if (name == "trace:maxdiffusedepth") return number(static_cast<float>(a.trace.maxDiffuseDepth));
-  if (name == "trace:maxspeculardepth") return number(static_cast<float>(a.trace.maxSpecularDepth));
-  if (name == "trace:bias") return number(a.trace.bias.value_or(0));
-  const std::map<std::string_view, bool> visible = {{"visibility:camera", a.visibility.camera},
-                                                    {"visibility:diffuse", a.visibility.diffuse},
-                                                    {"visibility:specular", a.visibility.specular},
-                                                    {"visibility:transmission", a.visibility.transmission},
-                                                    {"visibility:photon", a.visibility.photon}};
-  if (const auto it = visible.find(name); it != visible.end()) return number(it->second);
+  const NamedAttribute* row = findNamedAttribute(name);
+  if (row && row->get) return tell(batch, row->get(a), type, out);
   const Param* param = findParam(a.user, std::string(name));
   return param ? tell(batch, *param, type, out) : 0;
 }
