@@ -103,11 +103,7 @@ inline const Param* findParam(const UserParams& user, const std::string& name) {
   const auto it = user.find(name);
   return it == user.end() ? nullptr : &it->second;
 }
-/// Returns its first string; empty if there is none.
-inline std::string wordOf(const UserParams& user, const std::string& name) {
-  const Param* param = findParam(user, name);
-  return param && !param->strings.empty() ? param->strings.front() : "";
-}
+inline std::string wordOf(const UserParams& user, const std::string& name) { return wordOf(findParam(user, name)); }
 
 struct Quantize {
   float one = 255, min = 0, max = 255, dither = 0.5f, zero = 0;

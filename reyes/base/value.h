@@ -10,6 +10,13 @@ namespace tomales {
 enum class Storage : uint8_t { Constant, Uniform, Varying, Vertex, FaceVarying };
 enum class ValueType : uint8_t { Float, Integer, String, Color, Point, Vector, Normal, HPoint, Matrix };
 
+/// The words of declarations, in the order of the enumerations.
+inline constexpr std::string_view kStorageNames[] = {"constant", "uniform", "varying", "vertex", "facevarying"};
+inline constexpr std::string_view kValueTypeNames[] = {"float",  "int",    "string", "color", "point",
+                                                       "vector", "normal", "hpoint", "matrix"};
+inline std::string_view nameOf(Storage storage) { return kStorageNames[static_cast<size_t>(storage)]; }
+inline std::string_view nameOf(ValueType type) { return kValueTypeNames[static_cast<size_t>(type)]; }
+
 /// Returns the number of floats in one value of a type; a string counts as 1.
 inline int floatsPerValue(ValueType type) {
   switch (type) {
@@ -50,6 +57,14 @@ inline const Param* findParam(const ParamList& list, std::string_view name) {
   for (const Param& p : list)
     if (p.name == name) return &p;
   return nullptr;
+}
+
+/// Returns its first string; `fallback` if it is null or has none.
+inline std::string wordOf(const Param* param, const char* fallback = "") {
+  return param && !param->strings.empty() ? param->strings.front() : fallback;
+}
+inline std::string wordOf(const ParamList& list, std::string_view name, const char* fallback = "") {
+  return wordOf(findParam(list, name), fallback);
 }
 
 }  // namespace tomales

@@ -81,13 +81,8 @@ const std::unordered_map<std::string_view, Restore>& subsets() {
   return table;
 }
 
-std::string text(const Request& r, const char* name, const char* fallback) {
-  const Param* p = findParam(r.params, name);
-  return p && !p->strings.empty() ? p->strings[0] : fallback;
-}
-
 void restore(GraphicsState& s, const Request& r, const Scope& from) {
-  std::string list = text(r, "subset", "all");
+  std::string list = wordOf(r.params, "subset", "all");
   std::replace(list.begin(), list.end(), ',', ':');
   for (std::string subset : foldersOf(list)) {
     std::erase(subset, ' ');
@@ -99,7 +94,7 @@ void restore(GraphicsState& s, const Request& r, const Scope& from) {
 }
 
 void resource(GraphicsState& s, const Request& r) {
-  const std::string &name = r.args[0].strings[0], operation = text(r, "operation", "");
+  const std::string &name = r.args[0].strings[0], operation = wordOf(r.params, "operation");
   auto& scopes = s.globals.resources;
   if (r.args[1].strings[0] != "attributes" || (operation != "save" && operation != "restore"))
     return s.warn(r, "rib-resource",

@@ -1,5 +1,6 @@
 #include "reyes/rib/dictionary.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 #include <vector>
@@ -52,20 +53,23 @@ constexpr Standard kStandard[] = {
     {"int", "tiled multipart"},
 };
 
-constexpr std::pair<std::string_view, Storage> kStorages[] = {
-    {"constant", Storage::Constant}, {"uniform", Storage::Uniform},         {"varying", Storage::Varying},
-    {"vertex", Storage::Vertex},     {"facevarying", Storage::FaceVarying}, {"facevertex", Storage::FaceVarying}};
-constexpr std::pair<std::string_view, ValueType> kTypes[] = {
-    {"float", ValueType::Float},   {"int", ValueType::Integer},   {"integer", ValueType::Integer},
-    {"string", ValueType::String}, {"color", ValueType::Color},   {"point", ValueType::Point},
-    {"vector", ValueType::Vector}, {"normal", ValueType::Normal}, {"hpoint", ValueType::HPoint},
-    {"matrix", ValueType::Matrix}, {"mpoint", ValueType::Matrix}};
+template <class Enum, size_t kCount>
+bool findName(const std::string_view (&names)[kCount], std::string_view word, Enum& out) {
+  const auto it = std::find(names, names + kCount, word);
+  if (it == names + kCount) return false;
+  out = static_cast<Enum>(it - names);
+  return true;
+}
 
-template <class Table, class Value>
-bool lookUp(const Table& table, std::string_view word, Value& out) {
-  for (const auto& [name, value] : table)
-    if (name == word) return out = value, true;
-  return false;
+bool readWord(std::string_view word, Storage& out) {
+  if (word == "facevertex") return out = Storage::FaceVarying, true;
+  return findName(kStorageNames, word, out);
+}
+
+bool readWord(std::string_view word, ValueType& out) {
+  if (word == "integer") return out = ValueType::Integer, true;
+  if (word == "mpoint") return out = ValueType::Matrix, true;
+  return findName(kValueTypeNames, word, out);
 }
 
 std::vector<std::string_view> words(std::string_view text) {
@@ -99,15 +103,15 @@ bool takeArrayLength(std::string& text, int& length) {
 
 // Takes class and type off the front; the rest is the name.
 bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool& typed) {
-  const auto take = [&list](const auto& table, auto& value) {
-    const bool found = !list.empty() && lookUp(table, list[0], value);
+  const auto take = [&list](auto& value) {
+    const bool found = !list.empty() && readWord(list[0], value);
     if (found) list.erase(list.begin());
     return found;
   };
   d.reference = !list.empty() && list[0] == "reference";
   if (d.reference) list.erase(list.begin());
-  const bool classed = take(kStorages, d.storage);
-  typed = take(kTypes, d.type);
+  const bool classed = take(d.storage);
+  typed = take(d.type);
   if (d.reference && !typed && !list.empty() && list[0] == "struct") {  // a manifold of PRMan's patterns
     d.type = ValueType::String;
     typed = true;

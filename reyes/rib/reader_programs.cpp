@@ -15,11 +15,6 @@ constexpr size_t kAnswerCost = 10;  // cost of a request of a program: what it d
 constexpr double kSystemPatience_s = 3600;
 constexpr size_t kLongestAnswer = size_t{1} << 30;  // bytes
 
-std::string textParam(const ParamList& params, const char* name) {
-  const Param* p = findParam(params, name);
-  return p && !p->strings.empty() ? p->strings[0] : "";
-}
-
 // An infinite box is a box too, and means "read it now".
 bool isBox(const std::vector<float>& b) { return b.size() == 6 && b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5]; }
 
@@ -69,8 +64,8 @@ void Reader::procedural2(const Request& r) {
   Request plain{r.name, {}, {}, r.where};
   const auto strings = [](std::vector<std::string> s) { return RibArg{RibArg::Kind::Strings, {}, std::move(s)}; };
   plain.args.push_back({RibArg::Kind::String, {}, {kind.ends_with('2') ? kind.substr(0, kind.size() - 1) : kind}});
-  std::vector<std::string> data{textParam(r.params, program ? "programname" : plugin ? "dsoname" : "filename")};
-  if (program || plugin) data.push_back(textParam(r.params, "data"));
+  std::vector<std::string> data{wordOf(r.params, program ? "programname" : plugin ? "dsoname" : "filename")};
+  if (program || plugin) data.push_back(wordOf(r.params, "data"));
   plain.args.push_back(strings(std::move(data)));
   plain.args.push_back({RibArg::Kind::Numbers, bound ? bound->floats : std::vector<float>(), {}});
   if (bounding != "SimpleBound")

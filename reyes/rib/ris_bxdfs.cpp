@@ -53,7 +53,7 @@ std::vector<float> mean(const std::vector<float>& a, const std::vector<float>& b
 
 /// Follows a reference "handle:output".
 Source follow(const Request& r, const char* name, const Patterns& patterns) {
-  const std::string reference = text(r, name);
+  const std::string reference = wordOf(r.params, name);
   const auto it = patterns.find(reference.substr(0, reference.find(':')));
   if (it == patterns.end()) {
     Note none = note(
@@ -64,9 +64,10 @@ Source follow(const Request& r, const char* name, const Patterns& patterns) {
   }
   const Request& pattern = it->second;
   const std::string& kind = pattern.args[0].strings[0];
-  const std::string variable = text(pattern, "varname") + text(pattern, "variable");
-  if (kind == "PxrTexture" && !text(pattern, "filename").empty())
-    return {{1, 1, 1}, text(pattern, "filename"), false, {standsIn(pattern, "paintedplastic with its picture")}};
+  const std::string variable = wordOf(pattern.params, "varname") + wordOf(pattern.params, "variable");
+  if (kind == "PxrTexture" && !wordOf(pattern.params, "filename").empty())
+    return {
+        {1, 1, 1}, wordOf(pattern.params, "filename"), false, {standsIn(pattern, "paintedplastic with its picture")}};
   if (kind == "PxrChecker")
     return {mean(color(pattern, "colorA", 1), color(pattern, "colorB", 0)),
             "",

@@ -48,7 +48,7 @@ Translation distantLight(const Request& r) {
                      {param("from", ValueType::Point, {0, 0, 0}), param("to", ValueType::Point, {0, 0, 1})});
 }
 Translation domeLight(const Request& r) {
-  const std::string map = text(r, findParam(r.params, "rman__EnvMap") ? "rman__EnvMap" : "lightColorMap");
+  const std::string map = wordOf(r.params, findParam(r.params, "rman__EnvMap") ? "rman__EnvMap" : "lightColorMap");
   return lightSource(r, "environmentlight",
                      map.empty() ? ParamList{} : ParamList{param("map", map), param("mapspace", "shader")});
 }

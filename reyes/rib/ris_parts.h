@@ -28,11 +28,6 @@ inline std::vector<float> color(const Request& r, const char* name, float grey) 
   const Param* p = findParam(r.params, name);
   return p && p->floats.size() == 3 ? p->floats : std::vector<float>(3, grey);
 }
-inline std::string text(const Request& r, const char* name) {
-  const Param* p = findParam(r.params, name);
-  return p && !p->strings.empty() ? p->strings[0] : "";
-}
-
 /// Collects requests that have the place of `from`.
 class Script {
  public:

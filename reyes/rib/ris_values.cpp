@@ -37,7 +37,7 @@ bool sayNumbers(Script& script, const Param& p, const std::vector<float>& v) {
 // A Format of zero or less keeps the value that is set (RISpec 3.2 section 4.1.1).
 bool say(Script& script, const Request& r, const Param& p) {
   const std::vector<float> v = values(p);
-  const std::string word = p.strings.empty() ? "" : p.strings[0];
+  const std::string word = wordOf(&p);
   if (sayNumbers(script, p, v)) return true;
   if (p.name == "FormatResolution" && v.size() == 2) {
     script.say("Format", {numbers({v[0], v[1], -1})});

@@ -9,9 +9,7 @@ namespace {
 
 using Found = std::optional<std::string>;
 
-std::string text(const Param& p) {
-  return p.type == ValueType::String ? (p.strings.empty() ? "" : p.strings[0]) : fmt::format("{}", p.number(0));
-}
+std::string text(const Param& p) { return p.type == ValueType::String ? wordOf(&p) : fmt::format("{}", p.number(0)); }
 
 Found text(const UserParams& all, const std::string& key) {
   const Param* p = findParam(all, key);

@@ -121,11 +121,8 @@ class Binary : public Encoding {
 };
 
 std::string declarationOf(const Param& p, ValueType type) {
-  static constexpr const char* kStorages[] = {"constant", "uniform", "varying", "vertex", "facevarying"};
-  static constexpr const char* kTypes[] = {"float",  "int",    "string", "color", "point",
-                                           "vector", "normal", "hpoint", "matrix"};
   const std::string length = p.arrayLength == 1 ? "" : fmt::format("[{}]", p.arrayLength);
-  return fmt::format("{} {}{} ", kStorages[static_cast<int>(p.storage)], kTypes[static_cast<int>(type)], length);
+  return fmt::format("{} {}{} ", nameOf(p.storage), nameOf(type), length);
 }
 
 std::string declarationOf(const Param& p) { return declarationOf(p, p.type); }

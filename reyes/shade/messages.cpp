@@ -3,35 +3,17 @@
 
 #include "reyes/attribute_table.h"
 #include "reyes/shade/elsewhere.h"
+#include "reyes/shade/parameter_values.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/services.h"
 
 namespace tomales {
 namespace {
 
-TmType typeOf(const Param& p) {
-  switch (p.type) {
-    case ValueType::Color:
-      return TM_COLOR;
-    case ValueType::Point:
-      return TM_POINT;
-    case ValueType::Vector:
-      return TM_VECTOR;
-    case ValueType::Normal:
-      return TM_NORMAL;
-    case ValueType::Matrix:
-      return TM_MATRIX;
-    case ValueType::String:
-      return TM_STRING;
-    default:
-      return TM_FLOAT;
-  }
-}
-
 int32_t tell(Batch& batch, const Param& p, int32_t* type, TmValue* out) {
   std::vector<float> numbers = p.floats;
   numbers.insert(numbers.end(), p.ints.begin(), p.ints.end());
-  batch.answer(numbers, p.strings.empty() ? "" : p.strings.front(), typeOf(p), *type, *out);
+  batch.answer(numbers, wordOf(&p), tmTypeOf(p.type), *type, *out);
   return 1;
 }
 

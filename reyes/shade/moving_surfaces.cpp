@@ -5,6 +5,7 @@
 #include "reyes/base/search_path.h"
 #include "reyes/scene_changes.h"
 #include "reyes/shade/binder.h"
+#include "reyes/shade/parameter_values.h"
 #include "reyes/shader_registry.h"
 
 namespace tomales {
@@ -56,11 +57,6 @@ class MovingSurfaces {
 
   /// Returns what surfaces may ask of a displacement shader; nothing of a surface that moves points.
   std::vector<Param> outputsOf(const std::shared_ptr<const ShaderCall>& displacement) {
-    static const std::map<int32_t, ValueType> kTypes = {{TM_FLOAT, ValueType::Float},
-                                                        {TM_COLOR, ValueType::Color},
-                                                        {TM_POINT, ValueType::Point},
-                                                        {TM_VECTOR, ValueType::Vector},
-                                                        {TM_NORMAL, ValueType::Normal}};
     if (!displacement || displacement->name.starts_with(kOfSurface)) return {};
     const std::lock_guard lock(mutex_);
     const auto [it, isNew] = outputs_.try_emplace(displacement);
@@ -70,10 +66,10 @@ class MovingSurfaces {
     const TmShader* shader = registry_.find(name.name, name.kind, path_, name.beside);
     for (int i = 0; shader && i < shader->paramCount; ++i) {
       const TmParamDecl& decl = shader->params[i];
-      const auto type = kTypes.find(TM_TYPE_OF(decl.type));
-      if (!isOutput(decl) || decl.arrayLength > 1 || type == kTypes.end()) continue;
+      const ValueType type = valueTypeOf(typeOf(decl));
+      if (!isOutput(decl) || decl.arrayLength > 1 || type == ValueType::String || type == ValueType::Matrix) continue;
       out.emplace_back().name = decl.name;
-      out.back().type = type->second;
+      out.back().type = type;
     }
     return out;
   }

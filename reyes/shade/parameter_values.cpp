@@ -7,12 +7,9 @@
 namespace tomales {
 namespace {
 
-constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
-constexpr const char* kGiven[] = {"float",  "integer", "string", "color", "point",
-                                  "vector", "normal",  "hpoint", "matrix"};
-
-const char* nameOf(int32_t type) { return type >= TM_FLOAT && type <= TM_MATRIX ? kTypes[type] : "unknown type"; }
-const char* nameOf(ValueType type) { return kGiven[static_cast<size_t>(type)]; }
+/// Indexed by TmType.
+constexpr ValueType kValueTypes[] = {ValueType::Float,  ValueType::Color,  ValueType::Point, ValueType::Vector,
+                                     ValueType::Normal, ValueType::String, ValueType::Matrix};
 
 std::vector<float> numbersOf(const Param& p) {
   std::vector<float> out(p.floats);
@@ -61,7 +58,8 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
   const int32_t type = TM_TYPE_OF(declared.type);
   std::vector<float> numbers = numbersOf(given);
   if (!agrees(type, given) && (numbers.empty() || !converts(given, numbers.size(), width, out.floats.size()))) {
-    out.remark = fmt::format("is a {} and was given a {}; its default is used", nameOf(type), nameOf(given.type));
+    out.remark =
+        fmt::format("is a {} and was given a {}; its default is used", nameOf(valueTypeOf(type)), nameOf(given.type));
     return;
   }
   const size_t count = numbers.size();
@@ -72,26 +70,22 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
     out.remark = fmt::format("takes {} numbers and was given {}{}", out.floats.size(), count,
                              taken == 0 ? "; its default is used" : "");
   else if (!agrees(type, given))
-    out.remark = fmt::format("is a {} and was given a {}, which is converted", nameOf(type), nameOf(given.type));
+    out.remark =
+        fmt::format("is a {} and was given a {}, which is converted", nameOf(valueTypeOf(type)), nameOf(given.type));
 }
 
 }  // namespace
 
-int floatsOf(int32_t type) {
-  switch (type) {
-    case TM_COLOR:
-    case TM_POINT:
-    case TM_VECTOR:
-    case TM_NORMAL:
-      return 3;
-    case TM_MATRIX:
-      return 16;
-    case TM_STRING:
-      return 0;
-    default:
-      return 1;
-  }
+ValueType valueTypeOf(int32_t type) {
+  return type >= TM_FLOAT && type <= TM_MATRIX ? kValueTypes[type] : ValueType::Float;
 }
+
+TmType tmTypeOf(ValueType type) {
+  const auto it = std::find(std::begin(kValueTypes), std::end(kValueTypes), type);
+  return it == std::end(kValueTypes) ? TM_FLOAT : static_cast<TmType>(it - std::begin(kValueTypes));
+}
+
+int floatsOf(int32_t type) { return type == TM_STRING ? 0 : floatsPerValue(valueTypeOf(type)); }
 
 bool accepts(int32_t type, ValueType given) {
   switch (type) {

@@ -21,6 +21,10 @@ struct ParameterValue {
 /// cut; one that is too short is filled up from the default.
 ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 
+/// Returns the type of RIB for a TmType; float for a number that is none.
+ValueType valueTypeOf(int32_t type);
+/// Returns the type of shaders for one of RIB; float for those that shaders do not have.
+TmType tmTypeOf(ValueType type);
 /// Returns the floats in one value of a TmType; 0 for strings.
 int floatsOf(int32_t type);
 /// Tells whether `given` is this type, without conversion. Integers are floats; points, vectors and normals differ by
