@@ -128,13 +128,6 @@ constexpr Row kRows[] = {
 };
 // clang-format on
 
-Base baseOf(std::string_view word) {
-  static constexpr std::string_view kNames[] = {"void",   "float",  "color",  "point",
-                                                "vector", "normal", "matrix", "string"};
-  const auto* at = std::find(std::begin(kNames), std::end(kNames), word);
-  return static_cast<Base>(at - std::begin(kNames));
-}
-
 /// Makes one of the functions that a signature declares: `letter` stands for T or V.
 Builtin readingOf(std::string_view signature, Base letter) {
   Builtin out;
@@ -157,7 +150,7 @@ Builtin readingOf(std::string_view signature, Base letter) {
       slot.array = word.ends_with("[]");
       if (slot.array) word.remove_suffix(2);
       slot.any = word == "any";
-      const Base base = slot.any ? Base::Float : word == "T" || word == "V" ? letter : baseOf(word);
+      const Base base = slot.any ? Base::Float : word == "T" || word == "V" ? letter : baseNamed(word).value();
       if (first) {
         out.result = base;
       } else {

@@ -33,7 +33,6 @@ enum class Emit : uint8_t {
   ShaderName,
   Print,
   ArrayLength,
-  Number,  ///< The constant `number`.
   Plugin,  ///< The function of a plugin.
 };
 

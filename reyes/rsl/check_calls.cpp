@@ -36,18 +36,6 @@ std::string signature(const Function& f) {
   return out + ")";
 }
 
-/// Returns the value of an expression of written numbers alone.
-std::optional<float> written(const Expr& e) {
-  if (e.kind == ExprKind::Number) return e.number;
-  if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return std::nullopt;
-  const std::optional<float> a = written(*e.args.front()), b = written(*e.args.back());
-  if (!a || !b) return std::nullopt;
-  if (e.text == "+") return e.kind == ExprKind::Unary ? *a : *a + *b;
-  if (e.text == "-") return e.kind == ExprKind::Unary ? -*a : *a - *b;
-  if (e.text == "*") return *a * *b;
-  return e.text == "/" ? std::optional(*a / *b) : std::nullopt;
-}
-
 bool takesList(const Builtin& b) {
   switch (b.emit) {
     case Emit::List:
@@ -182,7 +170,7 @@ Type Checker::typeOfBuiltin(Expr& e, const Builtin& b) {
     if (!slot.any) expect(*e.args[i], typeOf(slot), where.c_str());
     if (slot.output) assigned(*e.args[i], where.c_str());
   }
-  if (b.op == Op::Smoothstep && written(*e.args[1]) && written(*e.args[0]) > written(*e.args[1]))
+  if (b.op == Op::Smoothstep && constantOf(*e.args[1]) && constantOf(*e.args[0]) > constantOf(*e.args[1]))
     messages_.warning(
         e.place,
         "smoothstep() whose first edge is the greater one is a hard step; 1 - smoothstep(least, greatest, x) falls "
@@ -264,8 +252,7 @@ void Checker::unknownFunction(Expr& e) {
     return messages_.error(e.place, fmt::format("\"{}\" is a variable, and no function", e.text), e.length);
   }
   std::vector<std::string> known = functionNames();
-  for (const Base b : {Base::Float, Base::Color, Base::Point, Base::Vector, Base::Normal, Base::Matrix, Base::String})
-    known.push_back(name(b));  // a cast looks like a call
+  known.insert(known.end(), typeNames().begin(), typeNames().end());  // a cast looks like a call
   const auto near = nearNames(e.text, known);
   messages_.missing(e.place,
                     fmt::format("there is no function \"{}\"{}: its value is a loud one", e.text,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "reyes/base/math.h"
 #include "reyes/rsl/checker.h"
 
 namespace tomales::compiler {
@@ -51,7 +52,7 @@ Type Checker::typeOfName(Expr& e) {
   Variable* v = find(e.text);
   if (!v && e.text == "PI") {
     e.kind = ExprKind::Number;
-    e.number = 3.14159265358979f;
+    e.number = kPi;
     return {Base::Float};
   }
   if (!v) {

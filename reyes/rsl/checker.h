@@ -84,7 +84,7 @@ class Checker {
   Messages& messages_;
   std::vector<Scope> scopes_;
   const Function* current_ = nullptr;  ///< Null in the body of a shader.
-  int loops_ = 0, lights_ = 0;
+  int loops_ = 0;
   std::map<const Function*, std::set<const Function*>> calls_;
   std::set<std::pair<int32_t, std::string>> told_;  ///< Unknown names that have been reported, once for each file.
 };

@@ -147,8 +147,6 @@ int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
     }
     case Emit::ArrayLength:
       return number(static_cast<float>(std::max(code_.registers[static_cast<size_t>(value(*e.args[0]))].length, 0)));
-    case Emit::Number:
-      return number(b.number);
     case Emit::Plugin:
       return plugin(e, b);
   }

@@ -14,6 +14,8 @@ namespace tomales::compiler {
 enum class Base : uint8_t { Void, Float, Color, Point, Vector, Normal, Matrix, String };
 const char* name(Base base);
 std::optional<Base> baseNamed(std::string_view name);
+/// Returns the names of all types but void.
+const std::vector<std::string>& typeNames();
 enum class Detail : uint8_t { Unstated, Uniform, Varying };
 
 /// A type without its detail.
@@ -89,6 +91,9 @@ struct Expr {
   bool missing = false;                ///< True for a Call to a function that nobody has.
 };
 
+/// Returns the value of an expression of written numbers alone; empty if it holds anything else.
+std::optional<float> constantOf(const Expr& e);
+
 enum class StmtKind : uint8_t {
   Empty,
   Block,        ///< body
@@ -131,6 +136,7 @@ struct Function {
 enum class ShaderKind : uint8_t { Surface, Light, Displacement, Volume, Imager, Transformation };
 const char* name(ShaderKind kind);
 std::optional<ShaderKind> shaderKindNamed(std::string_view name);
+const std::vector<std::string>& shaderKindNames();
 
 struct Shader {
   ShaderKind kind = ShaderKind::Surface;

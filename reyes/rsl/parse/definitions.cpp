@@ -70,10 +70,10 @@ void Parser::definition(File& file) {
 }
 
 void Parser::failNoDefinition() {
-  static const std::vector<std::string> kKnown{"surface",        "light",  "displacement", "volume", "imager",
-                                               "transformation", "float",  "color",        "point",  "vector",
-                                               "normal",         "matrix", "string",       "void"};
-  fail("expected a shader or a function", kKnown);
+  std::vector<std::string> known = shaderKindNames();
+  known.insert(known.end(), typeNames().begin(), typeNames().end());
+  known.emplace_back(name(Base::Void));
+  fail("expected a shader or a function", known);
 }
 
 std::unique_ptr<Shader> Parser::shader(ShaderKind kind, std::string doc) {
@@ -141,15 +141,17 @@ Parser::Specifiers Parser::specifiers() {
 /// ( [output] [detail] type name [= value] {, name ...} {; ...} )
 void Parser::parameters(std::vector<std::unique_ptr<Variable>>& out) {
   if (!here().is("(")) fail("expected '('");
-  static const std::vector<std::string> kTypes{"float",  "color",  "point",   "vector",  "normal",
-                                               "matrix", "string", "uniform", "varying", "output"};
   const Token& open = take();
   Specifiers s;
   while (!here().is(")")) {
     if (takeIf(";") || takeIf(",")) continue;
     if (isRsl2(false)) refuseRsl2(here(), inQuotes(here().text));
     if (const Specifiers own = specifiers(); own.any) s = own;
-    if (!s.hasType) fail("expected the type of a parameter", kTypes);
+    if (!s.hasType) {
+      std::vector<std::string> known = typeNames();
+      known.insert(known.end(), {"uniform", "varying", "output"});
+      fail("expected the type of a parameter", known);
+    }
     out.push_back(variable(s));
     if (!here().is(";") && !here().is(",")) break;
   }
@@ -170,24 +172,6 @@ std::unique_ptr<Variable> Parser::variable(const Specifiers& s) {
   if (takeIf("=")) out->initial = assignment();
   return out;
 }
-
-namespace {
-
-/// Returns the value of an expression of numbers alone; empty if it holds anything else.
-std::optional<float> constantOf(const Expr& e) {
-  if (e.kind == ExprKind::Number) return e.number;
-  if (e.kind != ExprKind::Unary && e.kind != ExprKind::Binary) return {};
-  const std::optional<float> a = constantOf(*e.args[0]);
-  if (!a || e.args.size() == 1) return a && e.text == "-" ? -*a : a;
-  const std::optional<float> b = constantOf(*e.args[1]);
-  if (!b) return {};
-  if (e.text == "+") return *a + *b;
-  if (e.text == "-") return *a - *b;
-  if (e.text == "*") return *a * *b;
-  return e.text == "/" ? std::optional(*a / *b) : std::nullopt;
-}
-
-}  // namespace
 
 int32_t Parser::arrayLength() {
   const Token& open = take();

@@ -68,8 +68,6 @@ StmtPtr Parser::statement() {
 
 /// Fails on two words beside each other whose first cannot begin a statement.
 void Parser::failNoStatement() {
-  static const std::vector<std::string> kKnown{"float", "color",  "point",   "vector",  "normal", "matrix", "string",
-                                               "void",  "extern", "uniform", "varying", "output", "return"};
   static const std::map<std::string_view, const char*> kOfOtherLanguages{
       {"int", "RSL has no 'int': every number is a 'float'"},
       {"double", "RSL has no 'double': every number is a 'float'"},
@@ -79,7 +77,9 @@ void Parser::failNoStatement() {
       {"then", "an 'if' has no 'then': the statement follows the brackets"}};
   const Token& t = here();
   if (const auto it = kOfOtherLanguages.find(t.text); it != kOfOtherLanguages.end()) failAt(t, it->second);
-  const std::vector<std::string> near = nearNames(t.text, kKnown);
+  std::vector<std::string> known = typeNames();
+  known.insert(known.end(), {name(Base::Void), "extern", "uniform", "varying", "output", "return"});
+  const std::vector<std::string> near = nearNames(t.text, known);
   failAt(t, inQuotes(t.text) + " is no type" + (near.empty() ? "" : "; did you mean '" + near[0] + "'?"));
 }
 

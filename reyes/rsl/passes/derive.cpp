@@ -197,9 +197,7 @@ class Derivation {
   }
 
   void changeOf(const Instruction& i, Block& out) {
-    if (i.out.size() != 1 || !i.settings.empty() || differentiated(i).empty()) {
-      if (i.out.size() != 1 || differentiated(i).empty()) return still(i, out);
-    }
+    if (i.out.size() != 1 || differentiated(i).empty()) return still(i, out);
     for (const Op side : {Op::StepU, Op::StepV}) {
       RuleContext context{code_, out, i, zero_, side, [&](int32_t r) { return step(r, side); }};
       writeChange(context, step(i.out[0], side));

@@ -66,12 +66,8 @@ class Removal {
   void sweep(Block& block) {
     for (Instruction& i : block)
       for (Block& inner : i.blocks) sweep(inner);
-    const size_t before = block.size();
-    std::erase_if(block, [&](const Instruction& i) {
-      // An instruction under a constant condition that never holds has an empty block, and goes with its If.
-      return isUseless(i);
-    });
-    removed_ |= block.size() != before;
+    // An If whose blocks have lost all their instructions goes with them.
+    removed_ |= std::erase_if(block, [&](const Instruction& i) { return isUseless(i); }) > 0;
   }
 
   /// `t = a + b; x = t` becomes `x = a + b`, where t has no other reader.

@@ -33,11 +33,6 @@ void forEachWrite(const Instruction& i, const Visit& visit) {
     if (s.value >= 0 && s.fills) visit(s.value);
 }
 
-/// Tells whether the register keeps its old value at some points, or in some elements.
-inline bool writesInPart(const Instruction& i) {
-  return i.masked && (i.op == Op::Copy || i.op == Op::SetElement || !i.settings.empty() || !info(i.op).pure());
-}
-
 /// Returns how many instructions write each register.
 inline std::vector<int> writeCounts(const Code& code) {
   std::vector<int> out(code.registers.size(), 0);
