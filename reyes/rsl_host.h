@@ -13,6 +13,10 @@ namespace tomales {
 /// TmValue::step is 1 then, and element e of component k of point i is c[k][e * components * padded + i].
 constexpr int32_t kArrayVaries = 0x10000;
 
+/// The samples of a light with an extent, such as an area, that does not say how many it wants. Lights in RSL declare
+/// it.
+constexpr int kDefaultLightSamples = 16;
+
 /// Returns the form of a light that AreaLightSource runs: its P lies on the geometry. Returns null if the light is not
 /// written in RSL, or does not read P.
 const TmShader* rslAreaLight(const TmShader& light);

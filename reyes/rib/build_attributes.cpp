@@ -79,16 +79,11 @@ void orientation(GraphicsState& s, const Request& r) {
 
 void basis(GraphicsState& s, const Request& r) {
   const auto read = [&](const RibArg& matrix, const RibArg& step, Basis& out) {
-    static const std::unordered_map<std::string_view, Basis (*)()> kNamed = {{"bezier", bezierBasis},
-                                                                             {"b-spline", bsplineBasis},
-                                                                             {"catmull-rom", catmullRomBasis},
-                                                                             {"hermite", hermiteBasis},
-                                                                             {"power", powerBasis}};
     Basis b = out;
     if (matrix.kind == RibArg::Kind::Numbers) {
       b.matrix = asMatrix(matrix.numbers);  // Basis::matrix[k] is row k, too
-    } else if (const auto it = kNamed.find(matrix.strings[0]); it != kNamed.end()) {
-      b = it->second();
+    } else if (const std::optional<Basis> named = basisNamed(matrix.strings[0])) {
+      b = *named;
     } else {
       return rejectAttribute(s, r, "unknown basis \"" + matrix.strings[0] + "\"");
     }
@@ -149,6 +144,16 @@ void attribute(GraphicsState& s, const Request& r) {
 void acceptHint(GraphicsState&, const Request&) {}
 
 }  // namespace
+
+std::optional<Basis> basisNamed(std::string_view name) {
+  static const std::unordered_map<std::string_view, Basis (*)()> table = {{"bezier", bezierBasis},
+                                                                          {"b-spline", bsplineBasis},
+                                                                          {"catmull-rom", catmullRomBasis},
+                                                                          {"hermite", hermiteBasis},
+                                                                          {"power", powerBasis}};
+  const auto it = table.find(name);
+  return it == table.end() ? std::nullopt : std::optional(it->second());
+}
 
 const HandlerTable& attributeHandlers() {
   static const HandlerTable table = {

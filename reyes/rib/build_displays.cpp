@@ -11,8 +11,6 @@
 namespace tomales::rib {
 namespace {
 
-constexpr float kMostTracedSamples = 64;  // Samples of a pixel: a path tracer asks for more than a Reyes hider needs.
-
 Param floats(const char* name, std::vector<float> values) {
   Param p;
   p.name = name;
@@ -131,7 +129,8 @@ void hider(GraphicsState& s, const Request& r) {
     else if (p.name == "samplemotion")
       o.sampleMotion = p.number(1) != 0;
     else if (p.name == "maxsamples" && o.hider == "raytrace" && p.number(0) > 0)
-      o.xSamples = o.ySamples = static_cast<int>(std::ceil(std::sqrt(std::min(p.number(0), kMostTracedSamples))));
+      o.xSamples = o.ySamples =
+          static_cast<int>(std::ceil(std::sqrt(std::min<float>(p.number(0), kMostTracedSamples))));
     else if (p.name == "dofaspect" && p.number(1) > 0)
       o.dofAspect = clamped(s, r, p.number(1), 0.01f, 100);
     else if (p.name == "aperture" && p.floats.size() == 4)

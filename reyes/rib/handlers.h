@@ -1,6 +1,7 @@
 // The handlers of requests, which change the graphics state; one table for each chapter of RISpec 3.2. The requests
 // that the scene builder itself must know (blocks, motion, retained objects) are not here.
 #pragma once
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 
@@ -59,6 +60,8 @@ float clamped(GraphicsState& state, const Request& request, float value, float l
 /// Warns once for each "category:name" of an Option or Attribute. If something else does what it asks for, the message
 /// says that, and nothing is wrong with the picture.
 void warnOfIgnored(GraphicsState& state, const Request& request, const std::string& key);
+/// Returns a basis of RISpec 3.2 section 5.2 with its step; nothing if none has that name.
+std::optional<Basis> basisNamed(std::string_view name);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 
 }  // namespace tomales::rib

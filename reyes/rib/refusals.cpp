@@ -1,5 +1,7 @@
 #include "reyes/rib/refusals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_map>
 
@@ -25,8 +27,8 @@ constexpr const char *kVolumes =
                      *kPhotonTrace = "tomales photons --bounces ends the paths of photons",
                      *kSplits = "geometry splits as far as it must";
 
-const std::unordered_map<std::string_view, const char*>& reasons() {
-  static const std::unordered_map<std::string_view, const char*> table = {
+const std::unordered_map<std::string_view, std::string>& reasons() {
+  static const std::unordered_map<std::string_view, std::string> table = {
       {"VPInterior", kVisiblePoints},
       {"VPExterior", kVisiblePoints},
       {"VPAtmosphere", kVisiblePoints},
@@ -46,7 +48,9 @@ const std::unordered_map<std::string_view, const char*>& reasons() {
       {"MakeTexture3D", "MakeBrickMap makes brick maps"},
       {"MakeOcclusion", "MakeShadow makes one map of one picture"},
       {"Hider photon", "tomales photons writes photon maps; the picture is rendered as by \"hidden\""},
-      {"Hider raytrace", "the picture is rendered as by \"hidden\", with maxsamples (at most 64) for PixelSamples"},
+      {"Hider raytrace",
+       fmt::format("the picture is rendered as by \"hidden\", with maxsamples (at most {}) for PixelSamples",
+                   kMostTracedSamples)},
       {"Hider bake", "the picture is rendered as by \"hidden\", and bakes nothing"},
       {"Hider null", "the picture is rendered as by \"hidden\"; Display type \"null\" writes none"},
       {"Hider paint", "the picture is rendered as by \"hidden\""},
@@ -127,7 +131,7 @@ constexpr std::pair<std::string_view, const char*> kCategories[] = {
 
 std::string reasonFor(std::string_view what) {
   const char* why = nullptr;
-  if (const auto it = reasons().find(what); it != reasons().end()) why = it->second;
+  if (const auto it = reasons().find(what); it != reasons().end()) why = it->second.c_str();
   for (const auto& [prefix, reason] : kCategories)
     if (!why && what.starts_with(prefix)) why = reason;
   const bool memory = what.starts_with("Option limits:") && what.ends_with("memory");

@@ -3,6 +3,7 @@
 
 #include <unordered_map>
 
+#include "reyes/rib/handlers.h"
 #include "reyes/rib/ris_parts.h"
 
 namespace tomales::rib {
@@ -16,11 +17,9 @@ RibArg integer(int i) { return {RibArg::Kind::Integer, {static_cast<float>(i)}, 
 
 // Each basis moves along its control points by its own step (RISpec 3.2 section 5.3).
 bool sayBasis(Script& script, const std::string& name) {
-  static const std::unordered_map<std::string_view, int> steps = {
-      {"bezier", 3}, {"b-spline", 1}, {"catmull-rom", 1}, {"hermite", 2}, {"power", 4}};
-  const auto it = steps.find(name);
-  if (it == steps.end()) return false;
-  script.say("Basis", {string(name), integer(it->second), string(name), integer(it->second)});
+  const std::optional<Basis> basis = basisNamed(name);
+  if (!basis) return false;
+  script.say("Basis", {string(name), integer(basis->step), string(name), integer(basis->step)});
   return true;
 }
 

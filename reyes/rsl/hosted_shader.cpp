@@ -129,7 +129,7 @@ void HostedShader::declareParameters() {
 
 /// Declares the parameters of a light with an extent, for which the language has no words.
 void HostedShader::declareExtent() {
-  static constexpr float kSamples = 16, kNo = 0;
+  static constexpr float kSamples = kDefaultLightSamples, kNo = 0;
   declareForHost("__samples", TM_ROLE_SAMPLES, &kSamples);
   declareForHost("__visible", TM_ROLE_VISIBLE, &kNo);
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "reyes/base/deep_stack.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/binder.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shader_registry.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr const char* kIndirect = "indirect";  ///< The category of indirect lights, beside their own.
 
-constexpr int kLightSamples = 16;   ///< The number for a light that gives none.
 constexpr int kColours = 3;         ///< An indirect light has a sample for each.
 constexpr int kMostRays = 1 << 16;  ///< The limit for one irradiance sample.
 
@@ -170,7 +170,7 @@ std::unique_ptr<BoundLight> Binder::light(const LightCall& call, int index) {
   if (light->can(TM_LIGHT_SKY)) light->sky = sky(*bound);
   if (light->takesFoundPortals()) light->sky->setPortals(foundPortals(scene_));
   if (light->can(TM_LIGHT_AREA) || light->can(TM_LIGHT_SKY) || light->can(TM_LIGHT_SAMPLED))
-    light->samples = countOf(*bound, TM_ROLE_SAMPLES, kLightSamples, 1, kMostLightSamples, log_);
+    light->samples = countOf(*bound, TM_ROLE_SAMPLES, kDefaultLightSamples, 1, kMostLightSamples, log_);
   if (light->can(TM_INTERPOLATED)) light->maxVariation = light->can(TM_INTERPOLATED_UNASKED) ? 1 : -1;
   if (light->can(TM_OCCLUDED)) light->maxVariation = bound->number(TM_ROLE_MAX_VARIATION, 1);
   if (!light->can(TM_LIGHT_INDIRECT)) return light;
