@@ -19,7 +19,7 @@ struct GatherSettings {
   float maxError = 1;                         ///< Factor on the error that smoothRadius allows.
   int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
-  bool mirrored = true;                       ///< The same as ShadeContext::mirrored.
+  bool mirrored = true;                       ///< The same as ShadeContext::specularRaysSeeLights.
   std::string
       subset{};  ///< The sets of objects that the rays see; empty for those of the object's grouping:tracesubset.
   std::optional<HemisphereQuery> asked{};  ///< The question of a shader; empty for an indirect light.

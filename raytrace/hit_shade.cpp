@@ -126,7 +126,7 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
   return true;
 }
 
-/// Writes the outputs of a hit. Where a shader ran, `shaded` has its values, as ShadeContext::told lists them.
+/// Writes the outputs of a hit. Where a shader ran, `shaded` has its values, as ShadeContext::outputs lists them.
 void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
           const HitQuestion& question, const HitAnswers& answers) {
   size_t first = 0;
@@ -163,7 +163,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   ShadeContext hitContext = context;
   hitContext.answers = nullptr;
   hitContext.variables = false;  // these belong to the points that the rays leave
-  hitContext.told = question.outputs.empty() ? nullptr : &question.outputs;
+  hitContext.outputs = question.outputs.empty() ? nullptr : &question.outputs;
   answers.color.assign(hits.size(), vec3(0));
   answers.opacity.assign(hits.size(), vec3(0));
   const bool diffuse = context.kind == RayKind::Diffuse;

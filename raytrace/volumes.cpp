@@ -108,9 +108,9 @@ void Volumes::crossOne(std::span<const Crossing> crossings, const std::vector<Ra
     colors.set(static_cast<int>(k), answers.color[which[k]], answers.opacity[which[k]]);
   ShadeContext crossing = context;
   crossing.answers = nullptr;  // these belong to the rays' own points
-  crossing.told = nullptr;
+  crossing.outputs = nullptr;
   crossing.variables = false;
-  crossing.ways = ways;
+  crossing.densities = ways;
   if (!shading.crossVolume(ends, true, crossing, colors)) return;
   for (size_t k = 0; k < which.size(); ++k) {
     answers.color[which[k]] = colors.color(static_cast<int>(k));

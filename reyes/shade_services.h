@@ -58,28 +58,28 @@ enum class Purpose : uint8_t {
 /// The purpose of shading a batch, and its settings.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
-  int depth = 0;  ///< Diffuse bounces between the eye and these points.
+  int diffuseDepth = 0;  ///< Diffuse bounces between the eye and these points.
   uint32_t seed = 0;
   int lightSamples = 0;  ///< Samples of each area light and of the sky; 0 for the number that the light asks for.
   bool indirect = true;  ///< Indirect lights run.
   bool direct = true;    ///< The other lights run where the eye looks. At hits of rays they run in any case.
   /// If not null, of all lights but indirect ones only those of this LightGroup shine, everywhere; empty for none of
   /// them.
-  const std::string* lights = nullptr;
+  const std::string* onlyLightGroup = nullptr;
   bool variables = false;  ///< The variables that outputOf(options) lists are stored.
   /// Store these instead: for "surface:NAME" the outputs of the shader, or NaN if it has none of this name.
-  const std::vector<RayOutput>* told = nullptr;
-  Illumination light = Illumination::Lights;
+  const std::vector<RayOutput>* outputs = nullptr;
+  Illumination illumination = Illumination::Lights;
   int specularDepth = 0;  ///< Specular bounces between the eye and these points.
   int diffuseLimit = 1 << 20,
       specularLimit = 1 << 20;  ///< Depths beyond which no ray follows, set by the objects on the way.
   std::string label{};          ///< The label of the ray that came here.
   bool seesAreaLights = true;   ///< True if that ray sees area lights.
   /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
-  bool mirrored = true;
-  /// Indexed by group: 1 if `mirrored` is false for specular rays from the group and for its highlights. Null: for
-  /// none.
-  const std::vector<uint8_t>* focusing = nullptr;
+  bool specularRaysSeeLights = true;
+  /// Indexed by group: 1 if photons have brought the caustics of the group's mirrors and glass, so that
+  /// specularRaysSeeLights is false for specular rays from the group and for its highlights. Null: for none.
+  const std::vector<uint8_t>* groupsWithCaustics = nullptr;
   HitHighlights highlights = HitHighlights::None;
   /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
   RayAnswers* answers = nullptr;
@@ -95,17 +95,17 @@ struct ShadeContext {
   /// point.
   int branches = 1;
   /// The Volume that each point's ray crosses (ShadingSystem::crossVolume). Empty: the air is the same everywhere.
-  std::span<const DensityAlongRay> ways{};
+  std::span<const DensityAlongRay> densities{};
   int subBatch = 0;  ///< The part of the batch that is being shaded, set by ShadingSystem.
 
   /// Tells whether lamps have highlights on surfaces of a group.
   bool hasHighlights(int group) const {
     return (kind != RayKind::Diffuse || highlights != HitHighlights::None) &&
-           !(focusing && (*focusing)[static_cast<size_t>(group)]);
+           !(groupsWithCaustics && (*groupsWithCaustics)[static_cast<size_t>(group)]);
   }
   /// Tells whether lamps and skies are seen in mirrors and glass of a group.
   bool seesLightsInMirrors(int group) const {
-    return mirrored && !(focusing && (*focusing)[static_cast<size_t>(group)]);
+    return specularRaysSeeLights && !(groupsWithCaustics && (*groupsWithCaustics)[static_cast<size_t>(group)]);
   }
 };
 
@@ -118,7 +118,7 @@ inline int shareOfBranch(int count, int least, const ShadeContext& context) {
 /// Returns the same for rays that a shader asks for. A point that gather rays meet gets no more than `least`, because
 /// it is one of the hundreds that make one record.
 inline int raysOfBranch(int count, int least, const ShadeContext& context) {
-  return context.depth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
+  return context.diffuseDepth > 0 ? std::min(count, least) : shareOfBranch(count, least, context);
 }
 
 /// Least number of rays of a hemisphere. A shader may use the result in a way that is not linear.

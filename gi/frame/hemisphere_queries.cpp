@@ -100,7 +100,7 @@ bool interpolateHemisphere(const GiState& state, const ShadePoints& points, cons
     return true;
   }
   // Records without shares do not know whose light they hold.
-  if (query.radiance && context.lights && state.groups.empty()) return false;
+  if (query.radiance && context.onlyLightGroup && state.groups.empty()) return false;
   CacheKey key = cacheKeyFor(state, points.group(), query);
   const auto prepared = preparedFor(state, key);
   if (prepared == state.caches.end()) return false;

@@ -52,8 +52,8 @@ void bounceIndirect(const GiState& state, const ShadePoints& points, const uint8
     if (!active[i]) continue;
     const GatherPoint point = places.at(i);
     const IrradianceEstimate estimate =
-        state.learnt->bounces.lookup(bounces - context.depth, state.camera, point.position, point.normal,
-                                     places.shading(i, unitNormal(points, N, i)), context.lights);
+        state.learnt->bounces.lookup(bounces - context.diffuseDepth, state.camera, point.position, point.normal,
+                                     places.shading(i, unitNormal(points, N, i)), context.onlyLightGroup);
     if (estimate.weight > 0) store(out, i, estimate.E, estimate.dominant);
     unknown[static_cast<size_t>(i)] = estimate.weight <= 0;
     all &= estimate.weight > 0;

@@ -113,14 +113,14 @@ bool noteMeasured(const GiState& state, const ShadePoints& points, const uint8_t
     if (!active[i]) continue;
     const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};
     store(out, i, vec3(0.0f), dominant);
-    if (context.depth == 0) state.measured->note(pointAt(*tools->rays, places, points, N, i, bounces));
+    if (context.diffuseDepth == 0) state.measured->note(pointAt(*tools->rays, places, points, N, i, bounces));
   }
   return true;
 }
 
 void addMeasured(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, int bounces,
                  const ShadeContext& context, const IndirectResult& out) {
-  const RayTools* tools = state.measured && context.depth == 0 ? state.rays() : nullptr;
+  const RayTools* tools = state.measured && context.diffuseDepth == 0 ? state.rays() : nullptr;
   if (!tools) return;
   const GatherPlaces places(state, points);
   for (int i = 0; i < points.count(); ++i) {

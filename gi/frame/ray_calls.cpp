@@ -12,8 +12,9 @@ namespace {
 constexpr int kMostBranches = 1 << 14;
 
 bool isTooDeep(const ShadeContext& hit, const Options& options) {
-  const bool past = hit.kind == RayKind::Diffuse ? hit.depth > hit.diffuseLimit : hit.specularDepth > hit.specularLimit;
-  return past || hit.kind == RayKind::Transmission || hit.depth + hit.specularDepth > options.maxRayDepth;
+  const bool past =
+      hit.kind == RayKind::Diffuse ? hit.diffuseDepth > hit.diffuseLimit : hit.specularDepth > hit.specularLimit;
+  return past || hit.kind == RayKind::Transmission || hit.diffuseDepth + hit.specularDepth > options.maxRayDepth;
 }
 
 /// The rays of one call, layer by layer.
@@ -136,10 +137,10 @@ std::optional<ShadeContext> contextOfHits(const GiState& state, const ShadePoint
   hit.label = query.label;
   hit.seesAreaLights = query.seesAreaLights && context.seesLightsInMirrors(points.group());
   hit.importance *= query.importance;
-  hit.diffuseLimit = std::min(context.diffuseLimit, context.depth + own.trace.maxDiffuseDepth);
+  hit.diffuseLimit = std::min(context.diffuseLimit, context.diffuseDepth + own.trace.maxDiffuseDepth);
   hit.specularLimit = std::min(context.specularLimit, context.specularDepth + own.trace.maxSpecularDepth);
   if (query.kind == RayKind::Diffuse) {
-    ++hit.depth;
+    ++hit.diffuseDepth;
     hit.lightSamples = 1;
     hit.indirect = byPaths;
   } else {
@@ -189,7 +190,8 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
     ray.filter = filter.passesAll() ? nullptr : &filter;
     const SampleName name = points.name(i);
     rays.add(i, ray,
-             {hashCombine(name.key, randomStream("trac"), static_cast<uint32_t>(ofHits->depth + ofHits->specularDepth)),
+             {hashCombine(name.key, randomStream("trac"),
+                          static_cast<uint32_t>(ofHits->diffuseDepth + ofHits->specularDepth)),
               name.sequence * static_cast<uint32_t>(query.count) + static_cast<uint32_t>(query.number)});
   }
   rays.trace();

@@ -51,7 +51,7 @@ class PathBatches {
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
     const SampleName name = points_.name(i);
-    const uint32_t pointKey = hashCombine(name.key, context_.seed, static_cast<uint32_t>(context_.depth));
+    const uint32_t pointKey = hashCombine(name.key, context_.seed, static_cast<uint32_t>(context_.diffuseDepth));
     const PolygonStart start = startOn(i, normal);
     for (int path = 0; path < paths; ++path) {
       const uint32_t number = name.sequence * static_cast<uint32_t>(paths) + static_cast<uint32_t>(path);
@@ -71,7 +71,8 @@ class PathBatches {
     send(sum, startOn(i, normal),
          {direction, std::abs(dot(direction, normal)),
           rayTime(*tools_.rays, points_, i, way.number, way.count, context_.seed)},
-         hashCombine(name.key ^ randomStream("refl"), context_.seed, static_cast<uint32_t>(context_.depth), number));
+         hashCombine(name.key ^ randomStream("refl"), context_.seed, static_cast<uint32_t>(context_.diffuseDepth),
+                     number));
   }
 
   void flush() {
@@ -135,13 +136,13 @@ class PathBatches {
 };
 
 ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, int bounces) {
-  const int depth = context.depth + 1;
+  const int depth = context.diffuseDepth + 1;
   ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
   // The depth also limits wide lobes that shaders follow. Mirrors reflect as deep as their objects allow.
   out.diffuseLimit = bounces;
   out.highlights = HitHighlights::All;
-  out.lights = context.lights;
-  if (!state.focusing.empty()) out.focusing = &state.focusing;
+  out.onlyLightGroup = context.onlyLightGroup;
+  if (!state.focusing.empty()) out.groupsWithCaustics = &state.focusing;
   out.auditPaths = context.auditPaths;
   return out;
 }
@@ -154,7 +155,7 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
   // again.
-  const int paths = context.depth > 0 ? 1
+  const int paths = context.diffuseDepth > 0 ? 1
                     : context.auditPaths > 0
                         ? context.auditPaths
                         : shareOfBranch(cacheKeyFor(state, points.group(), query).gather.samples, 1, context);
@@ -198,9 +199,10 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
     sums.push_back({i});
   }
   ShadeContext context{RayKind::Diffuse, 1, state.settings.seed, 1, false};
-  context.light = Illumination::LightsAndStored;
-  context.mirrored = state.scene.groups[static_cast<size_t>(points.group())].attributes->photon.causticMap.empty();
-  context.highlights = highlightsOfHits(context.mirrored);
+  context.illumination = Illumination::LightsAndStored;
+  context.specularRaysSeeLights =
+      state.scene.groups[static_cast<size_t>(points.group())].attributes->photon.causticMap.empty();
+  context.highlights = highlightsOfHits(context.specularRaysSeeLights);
   context.diffuseLimit = 0;
   PathBatches batches(state, *tools, points, {n[0], n[1], n[2]}, {}, context);
   for (PathSum& sum : sums) batches.add(sum, 1);

@@ -220,9 +220,10 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
   if (impl_->settings.mode == GiMode::Baked && !audit) return bakedIndirect(*impl_, points, active, out);
   const int bounces = audit ? auditBouncesFor(*impl_, query) : bouncesFor(*impl_, query);
   if (noteMeasured(*impl_, points, active, N, bounces, context, out)) return;
-  if (context.depth < bounces && (audit || !counted)) {
+  if (context.diffuseDepth < bounces && (audit || !counted)) {
     const bool cached = interpolatesIndirect(*impl_) && !audit;
-    if (cached && context.depth > 0) return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
+    if (cached && context.diffuseDepth > 0)
+      return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
     if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
     traceIndirect(*impl_, points, active, N, query, context, bounces, out);
     if (!counted) addMeasured(*impl_, points, active, N, bounces, context, out);
@@ -241,7 +242,7 @@ void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active,
                                const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const {
   ShadeServices::indirectAlong(points, active, way, query, context, out);
   const int bounces = bouncesFor(*impl_, query);
-  if (context.depth < bounces && context.purpose != Purpose::Rehearsal)
+  if (context.diffuseDepth < bounces && context.purpose != Purpose::Rehearsal)
     traceAlong(*impl_, points, active, way, query, context, bounces, out);
 }
 

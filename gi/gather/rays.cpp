@@ -99,8 +99,8 @@ void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* f
 
 void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
-  context.light = settings_.light;
-  context.mirrored = settings_.mirrored;
+  context.illumination = settings_.light;
+  context.specularRaysSeeLights = settings_.mirrored;
   context.highlights = highlightsOfHits(settings_.mirrored);
   // Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
@@ -126,7 +126,7 @@ void GatherRays::shadeShares(const ShadeContext& context, SeenLight& seen) {
   left = scratch_.answers.color;
   for (size_t g = 0; g < groups_.size(); ++g) {
     const bool isLast = g > 0 && g + 1 == groups_.size();
-    alone.lights = &groups_[g];
+    alone.onlyLightGroup = &groups_[g];
     if (!isLast) {
       scene_.shadeHits(scratch_.layers.rays, scratch_.hits, scratch_.layers.names, shading_, alone, scratch_.question,
                        share);

@@ -37,7 +37,7 @@ vec3 towards(const vec3& normal, const vec3& local) {
 std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& shading, const std::vector<Ray>& from,
                                   const std::vector<Hit>& hits, const std::vector<SampleName>& names, uint32_t seed) {
   ShadeContext context{RayKind::Diffuse, 1, seed, 1, false};
-  context.light = Illumination::None;
+  context.illumination = Illumination::None;
   std::vector<vec3> out;
   rays.shadeHits(from, hits, names, shading, context, out);
   return out;

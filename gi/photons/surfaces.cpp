@@ -40,7 +40,7 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
 std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                                                         const std::vector<SampleName>& names) const {
   ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};
-  context.light = Illumination::Unit;
+  context.illumination = Illumination::Unit;
   HitQuestion question;
   question.mode = HitMode::Shader;
   HitAnswers lit;

@@ -120,8 +120,8 @@ void SceneBuilder::addGeometry(const Keys& keys, const std::vector<float>& times
   object.shapeTimes = std::move(shapes.times);
   object.worldFromObject = state_.scope.ctm;
   if (isVolume) makeStill(object, state_.globals.options.shutterOpen);
-  state_.scope.attributes = state_.attributes(state_.scope.attributes);
-  object.attributes = state_.attributes(attributesOf(r, state_));
+  state_.scope.attributes = state_.attributesInterner(state_.scope.attributes);
+  object.attributes = state_.attributesInterner(attributesOf(r, state_));
   object.where = r.where;
   object.contents = shapes.contents;
   placeInSolid(state_, object);
@@ -220,7 +220,7 @@ void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expa
   Procedural p;
   p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   p.worldFromObject = state_.scope.ctm;
-  p.attributes = state_.scope.attributes = state_.attributes(state_.scope.attributes);
+  p.attributes = state_.scope.attributes = state_.attributesInterner(state_.scope.attributes);
   p.where = where;
   p.open = std::move(open);
   state_.world->procedurals.push_back(std::move(p));
@@ -274,7 +274,7 @@ void SceneBuilder::endMotion() {
     addGeometry(keys, times);
   } else {
     const Signature* signature = findSignature(first.name);
-    if (moves && signature && signature->support != Support::NotYet)
+    if (moves && signature && signature->support != Support::Ignored)
       state_.warn(first, "rib-motion", "does not move; its first value is used");
     perform(first);
   }

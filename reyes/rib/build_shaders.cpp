@@ -63,7 +63,7 @@ const HandlerTable& shaderHandlers() {
   static const HandlerTable table = {
       {"Surface",
        [](GraphicsState& s, const Request& r) {
-         s.scope.edit().surface = s.shaders(std::make_shared<const ShaderCall>(makeShaderCall(s, r)));
+         s.scope.edit().surface = s.shaderInterner(std::make_shared<const ShaderCall>(makeShaderCall(s, r)));
        }},
       {"Displacement", [](GraphicsState& s, const Request& r) { s.scope.edit().displacement = shaderOrNone(s, r); }},
       {"Atmosphere", [](GraphicsState& s, const Request& r) { s.scope.edit().atmosphere = shaderOrNone(s, r); }},

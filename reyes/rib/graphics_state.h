@@ -102,8 +102,8 @@ class GraphicsState {
   Scope scope;
   Globals globals;
   std::optional<World> world;
-  Interner<const ShaderCall> shaders;
-  Interner<Attributes> attributes;
+  Interner<const ShaderCall> shaderInterner;
+  Interner<Attributes> attributesInterner;
   Motion identity;  ///< The matrix that Identity sets: the CTM of the instance while an object is replayed.
   /// What Declare says of names, for Displays that show them. It outlives frames, as the declarations do.
   std::map<std::string, std::string> declared;

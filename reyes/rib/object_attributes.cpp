@@ -65,7 +65,7 @@ std::shared_ptr<Attributes> attributesOf(const Request& r, GraphicsState& s) {
     if (shades(s.globals.options)) out->visibility = {false, false, false, false, false};
   }
   for (auto* call : {&out->surface, &out->displacement, &out->atmosphere})
-    if (*call && !strings.empty()) *call = s.shaders(overridden(**call, strings));
+    if (*call && !strings.empty()) *call = s.shaderInterner(overridden(**call, strings));
   return out;
 }
 

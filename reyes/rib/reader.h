@@ -114,7 +114,8 @@ class Reader {
   bool canRead(const Request& request, const std::string& kind, const std::string& what) const;
   void system(const Request& request);
   bool allowed(const Request& request, const std::string& command) const;
-  void perform(const char* blockName, const SourceLoc& where);
+  /// Performs the request that begins or ends a block: "AttributeBegin".
+  void performBlock(const char* name, const SourceLoc& where);
 
   // Plugins, in reader_plugins.cpp.
   void dynamicLoad(const Request& request);

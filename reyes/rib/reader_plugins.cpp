@@ -68,14 +68,14 @@ void Reader::callPlugin(const Request& r, const std::string& name, const std::fu
   } catch (...) {
     trouble = "failed";
   }
-  perform("AttributeBegin", r.where);
+  performBlock("AttributeBegin", r.where);
   enter(key, std::string(open_.back().folder));
   for (const RiCall& call : calls) {
     if (!spend(1)) break;
     takeCall(call);
   }
   leave();
-  perform("AttributeEnd", r.where);
+  performBlock("AttributeEnd", r.where);
   if (!trouble.empty())
     report(Severity::Missing, "rib-plugin", r,
            fmt::format("plugin \"{}\" {}; what it called before is used", name.substr(0, 200), trouble));

@@ -110,12 +110,12 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
 }
 
 void Reader::delayedArchive(const Request& r) {
-  perform("AttributeBegin", r.where);
+  performBlock("AttributeBegin", r.where);
   readArchiveNamed(r, r.args[1].strings[0]);
-  perform("AttributeEnd", r.where);
+  performBlock("AttributeEnd", r.where);
 }
 
-void Reader::perform(const char* blockName, const SourceLoc& where) { builder_.request({blockName, {}, {}, where}); }
+void Reader::performBlock(const char* name, const SourceLoc& where) { builder_.request({name, {}, {}, where}); }
 
 bool Reader::allowed(const Request& r, const std::string& command) const {
   if (settings_.trust.programs) return true;
@@ -143,10 +143,10 @@ void Reader::runProgram(const Request& r) {
     bytes += got;
     return got;
   });
-  perform("AttributeBegin", r.where);
+  performBlock("AttributeBegin", r.where);
   const size_t count =
       read(*stream, name, fmt::format("{}: program", open_.size()), std::string(open_.back().folder), kAnswerCost);
-  perform("AttributeEnd", r.where);
+  performBlock("AttributeEnd", r.where);
   if (bytes >= kLongestAnswer || *budget_ < kAnswerCost)
     return report(
         Severity::Missing, "rib-program", r,

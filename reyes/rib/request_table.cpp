@@ -11,7 +11,7 @@ namespace tomales::rib {
 namespace {
 
 constexpr bool kParams = true, kNone = false;
-constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kNotYet = Support::NotYet;
+constexpr Support kWorks = Support::Works, kDraws = Support::Draws, kIgnored = Support::Ignored;
 
 constexpr Signature kTable[] = {
     // Stream, blocks, archives
@@ -44,12 +44,12 @@ constexpr Signature kTable[] = {
     {"ResourceBegin", "", kNone, kWorks},
     {"ResourceEnd", "", kNone, kWorks},
     {"System", "s", kNone, kWorks},
-    {"EditBegin", "s", kParams, kNotYet},
-    {"EditEnd", "", kNone, kNotYet},
-    {"EditAttributeBegin", "s", kNone, kNotYet},
-    {"EditAttributeEnd", "", kNone, kNotYet},
-    {"EditWorldBegin", "s", kParams, kNotYet},
-    {"EditWorldEnd", "", kNone, kNotYet},
+    {"EditBegin", "s", kParams, kIgnored},
+    {"EditEnd", "", kNone, kIgnored},
+    {"EditAttributeBegin", "s", kNone, kIgnored},
+    {"EditAttributeEnd", "", kNone, kIgnored},
+    {"EditWorldBegin", "s", kParams, kIgnored},
+    {"EditWorldEnd", "", kNone, kIgnored},
     // Options
     {"Format", "3", kNone, kWorks},
     {"FrameAspectRatio", "f", kNone, kWorks},
@@ -63,7 +63,7 @@ constexpr Signature kTable[] = {
     {"Shutter", "2", kNone, kWorks},
     {"PixelSamples", "2", kNone, kWorks},
     {"PixelFilter", "s2", kNone, kWorks},
-    {"PixelVariance", "f", kNone, kNotYet},
+    {"PixelVariance", "f", kNone, kIgnored},
     {"Exposure", "2", kNone, kWorks},
     {"Imager", "s", kParams, kWorks},
     {"Quantize", "s4", kNone, kWorks},
@@ -76,7 +76,7 @@ constexpr Signature kTable[] = {
     {"ColorSamples", "FF", kNone, kWorks},
     {"RelativeDetail", "f", kNone, kWorks},
     {"Option", "s", kParams, kWorks},
-    {"Options", "sh", kParams, kNotYet},
+    {"Options", "sh", kParams, kIgnored},
     // Attributes
     {"Attribute", "s", kParams, kWorks},
     {"Color", "c", kNone, kWorks},
@@ -90,19 +90,19 @@ constexpr Signature kTable[] = {
     {"Atmosphere", "s", kParams, kWorks},
     {"Interior", "s", kParams, kWorks},
     {"Exterior", "s", kParams, kWorks},
-    {"Shader", "sh", kParams, kNotYet},
+    {"Shader", "sh", kParams, kIgnored},
     {"Bxdf", "sh", kParams, kWorks},
     {"Light", "sh", kParams, kWorks},
     {"LightFilter", "sh", kParams, kWorks},
     {"Pattern", "sh", kParams, kWorks},
     {"Displace", "sh", kParams, kWorks},
-    {"VPSurface", "s", kParams, kNotYet},
-    {"VPAtmosphere", "s", kParams, kNotYet},
-    {"VPInterior", "s", kParams, kNotYet},
-    {"VPExterior", "s", kParams, kNotYet},
-    {"VPVolumes", "s", kParams, kNotYet},
-    {"Deformation", "s", kParams, kNotYet},
-    {"DeformationSurface", "s", kParams, kNotYet},
+    {"VPSurface", "s", kParams, kIgnored},
+    {"VPAtmosphere", "s", kParams, kIgnored},
+    {"VPInterior", "s", kParams, kIgnored},
+    {"VPExterior", "s", kParams, kIgnored},
+    {"VPVolumes", "s", kParams, kIgnored},
+    {"Deformation", "s", kParams, kIgnored},
+    {"DeformationSurface", "s", kParams, kIgnored},
     {"ShadingRate", "f", kNone, kWorks},
     {"ShadingInterpolation", "s", kNone, kWorks},
     {"Matte", "f", kNone, kWorks},
@@ -110,7 +110,7 @@ constexpr Signature kTable[] = {
     {"Detail", "6", kNone, kWorks},
     {"DetailRange", "4", kNone, kWorks},
     {"GeometricApproximation", "sf", kNone, kWorks},
-    {"GeometricRepresentation", "s", kNone, kNotYet},
+    {"GeometricRepresentation", "s", kNone, kIgnored},
     {"Orientation", "s", kNone, kWorks},
     {"ReverseOrientation", "", kNone, kWorks},
     {"Sides", "f", kNone, kWorks},
@@ -152,8 +152,8 @@ constexpr Signature kTable[] = {
     {"MakeCubeFaceEnvironment", "sssssssfs2", kParams, kWorks},
     {"MakeShadow", "ss", kParams, kWorks},
     {"MakeBrickMap", "Ss", kParams, kWorks},
-    {"MakeOcclusion", "Ss", kParams, kNotYet},
-    {"MakeTexture3D", "ss", kParams, kNotYet},
+    {"MakeOcclusion", "Ss", kParams, kIgnored},
+    {"MakeTexture3D", "ss", kParams, kIgnored},
 };
 
 /// Makes the signature of a quadric, of which prim.h has the list.
@@ -168,7 +168,7 @@ std::string_view nameOf(Support support) {
       return "works";
     case Support::Draws:
       return "draws";
-    case Support::NotYet:
+    case Support::Ignored:
       return "ignored";
   }
   return "";

@@ -9,8 +9,8 @@ namespace tomales::rib {
 
 enum class Support {
   Works,
-  Draws,   ///< The request works, and without it something would be missing from the picture.
-  NotYet,  ///< It is reported once, then ignored.
+  Draws,    ///< The request works, and without it something would be missing from the picture.
+  Ignored,  ///< It is reported once, then ignored.
 };
 
 /// `arguments` is a list of letters, one for each positional argument:

@@ -42,7 +42,7 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, con
     if (!group.atmosphere) return true;
     const ShaderTimer timer(impl_->stats, *group.atmosphere, points.count());
     ShadeContext context;
-    context.lights = seen.lights;
+    context.onlyLightGroup = seen.onlyLightGroup;
     ArenaLease arena;
     Batch batch(*impl_, group, context, *arena);
     batch.setPoints(through, *group.atmosphere, {}, colors, 0);

@@ -1,7 +1,7 @@
 #include "reyes/shade/batch.h"
 
-#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
+#include "reyes/shade/remote_batch.h"
 
 namespace tomales {
 namespace {
@@ -146,7 +146,7 @@ void Batch::closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoin
                   out.variables[static_cast<size_t>(v.first + k)].data() + begin);
 }
 
-void Batch::setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved) {
+void Batch::setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& moved) {
   own = asking.own;
   running = asking.running;
   points = &moved;

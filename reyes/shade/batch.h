@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-struct Elsewhere;
+struct RemoteBatch;
 
 extern const TmServices kServices;  ///< services.cpp; every function takes a Batch as host.
 
@@ -33,7 +33,7 @@ class Batch {
 
   /// Makes this a copy of the batch `asking`, whose shader asks for light at `moved`: its own points at other
   /// positions. Lights then see the surface and the shader of `asking`. `g` has the mask.
-  void setElsewhere(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
+  void setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
   /// Sets the inputs of a light shader to points that nothing shades.
   void setLit(const LightProbe& probe, const BoundShader& shader);
   /// Sets the inputs and outputs of an imager shader.
@@ -68,8 +68,8 @@ class Batch {
   /// The shader that the batch has been set for. `running` is another while lights are evaluated.
   const BoundShader* own = nullptr;
   Lights lights;
-  std::vector<std::unique_ptr<Elsewhere>> elsewhere;  ///< The latest first (elsewhere.h).
-  int placesAsked = 0;                                ///< Number of such places so far.
+  std::vector<std::unique_ptr<RemoteBatch>> remoteBatches;  ///< The latest first (remote_batch.h).
+  int remoteBatchesAsked = 0;                               ///< The number made so far.
 
   /// The last indirect gather. An indirect light runs once for each colour channel, and asks for the same gather three
   /// times.

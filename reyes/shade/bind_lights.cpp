@@ -84,7 +84,7 @@ void setLighting(BoundLight& light, Log& log) {
 void setShadows(BoundLight& light, const ShadowMaps& maps, Log& log) {
   const BoundShader& bound = *light.bound;
   light.shadowVariance = std::max(0.0f, bound.number(TM_ROLE_SHADOW_VARIANCE, 0));
-  for (const RoleValue& map : bound.told) {
+  for (const RoleValue& map : bound.roleValues) {
     if (map.role != TM_ROLE_SHADOW_MAP || map.text.empty()) continue;
     const bool traced = map.text == "raytrace";
     if (!traced && !map.declared)

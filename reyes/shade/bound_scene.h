@@ -44,7 +44,7 @@ struct BoundLight {
 
 /// Tells whether the light, which is no indirect one, is among those that the context lets shine.
 inline bool isMeant(const BoundLight& light, const ShadeContext& context) {
-  return !context.lights || light.group == *context.lights;
+  return !context.onlyLightGroup || light.group == *context.onlyLightGroup;
 }
 
 /// A primitive variable that takes the place of a shader parameter. The points hold it in current space already.

@@ -58,8 +58,9 @@ int BoundShader::output(TmRole role) const {
 }
 
 const RoleValue* BoundShader::find(TmRole role) const {
-  const auto it = std::find_if(told.begin(), told.end(), [&](const RoleValue& v) { return v.role == role; });
-  return it == told.end() ? nullptr : &*it;
+  const auto it =
+      std::find_if(roleValues.begin(), roleValues.end(), [&](const RoleValue& v) { return v.role == role; });
+  return it == roleValues.end() ? nullptr : &*it;
 }
 
 float BoundShader::number(TmRole role, float fallback) const {
@@ -73,7 +74,7 @@ vec3 BoundShader::color(TmRole role, const vec3& fallback) const {
 }
 
 std::string BoundShader::text(TmRole role, const std::string& fallback) const {
-  for (const RoleValue& v : told)
+  for (const RoleValue& v : roleValues)
     if (v.role == role && !v.text.empty()) return v.text;
   return fallback;
 }
@@ -110,7 +111,8 @@ class Binding {
     const std::span<const TmParamDecl> standard = standardParams(static_cast<TmKind>(shader.kind));
     for (const TmParamDecl& decl : standard) bindStandard(decl);
     for (const Param& p : call_->params) warnOfUnknown(p, standard);
-    std::stable_partition(bound_.told.begin(), bound_.told.end(), [](const RoleValue& v) { return v.given; });
+    std::stable_partition(bound_.roleValues.begin(), bound_.roleValues.end(),
+                          [](const RoleValue& v) { return v.given; });
   }
 
  private:
@@ -140,7 +142,7 @@ class Binding {
     ParameterValue parameter = valueOf(decl, param);
     if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE) {
       if (param || !hasComputedDefault(decl))
-        bound_.told.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
+        bound_.roleValues.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
       else
         warn("light-value", decl.name,
              fmt::format("the shader computes the default of \"{}\" when it runs, which the renderer cannot know; it "
@@ -160,7 +162,8 @@ class Binding {
   void bindStandard(const TmParamDecl& decl) {
     const Param* given = findParam(call_->params, decl.name);
     if (given && !declares(decl.name))
-      bound_.told.push_back(roleValue(static_cast<TmRole>(decl.role), decl.name, false, true, valueOf(decl, given)));
+      bound_.roleValues.push_back(
+          roleValue(static_cast<TmRole>(decl.role), decl.name, false, true, valueOf(decl, given)));
   }
 
   void warnOfUnknown(const Param& p, std::span<const TmParamDecl> standard) {

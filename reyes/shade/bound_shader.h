@@ -32,7 +32,10 @@ struct BoundShader {
   int output(TmRole role) const;
 
   // The host reads a shader's parameters by roles, never by names.
-  std::vector<RoleValue> told;  ///< All parameters with a role but outputs; those that the request gives come first.
+  /// The values of parameters with a role, but not of outputs and not of defaults that the shader computes. Those that
+  /// the request gives come first. Within either part the shader's own parameters are in the order of
+  /// TmShader::params, and standard ones (standardParams()) follow them.
+  std::vector<RoleValue> roleValues;
   const RoleValue* find(TmRole role) const;
   float number(TmRole role, float fallback) const;
   vec3 color(TmRole role, const vec3& fallback) const;

@@ -53,7 +53,8 @@ std::vector<Halves> halvesOf(Batch& batch, const std::vector<LightSample>& sampl
 
 void LightNoise::add(Batch& batch) {
   const ShadeContext& context = batch.context;
-  if (context.kind != RayKind::Camera || context.purpose != Purpose::Picture || context.light != Illumination::Lights)
+  if (context.kind != RayKind::Camera || context.purpose != Purpose::Picture ||
+      context.illumination != Illumination::Lights)
     return;
   const std::vector<LightSample>& samples = batch.lights.evaluated();
   if (std::none_of(samples.begin(), samples.end(),

@@ -15,7 +15,7 @@ bool isOn(const BoundLight& light, const Batch& batch) {
 
 bool applies(const BoundLight& light, const Batch& batch) {
   if (batch.points == nullptr) return false;  // displacement shaders see no light
-  return bringsLights(batch.context.light) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
+  return bringsLights(batch.context.illumination) && batch.context.kind != RayKind::Transmission && isOn(light, batch);
 }
 
 TmGrid lightGrid(Batch& batch, const BoundLight& light) {

@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "reyes/base/rng.h"
-#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/ray_shots.h"
+#include "reyes/shade/remote_batch.h"
 #include "reyes/shade/services.h"
 
 namespace tomales {
@@ -120,7 +120,7 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   Batch& batch = batchOf(host);
   const TmIlluminance query = givenOptions(batch, tmIlluminanceDefaults(), out);
   if (out->structBytes < offsetof(TmIlluminance, nonspecular)) return 0;  // no room for the answer
-  Batch& place = placeOf(batch, g, query);
+  Batch& place = remoteBatchOf(batch, g, query);
   const std::string_view category = query.category ? query.category : "";
   const LightList& indirect = place.scene.indirect;
   std::vector<LightSample>& samples = place.lights.samples(

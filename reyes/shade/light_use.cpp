@@ -54,8 +54,8 @@ std::string around(const Scene& scene, const vec3& place) {
 
 void LightUse::add(const Batch& batch) {
   const ShadeContext& context = batch.context;
-  if (context.kind != RayKind::Camera || context.purpose != Purpose::Picture || context.light != Illumination::Lights ||
-      !batch.lights.asked())
+  if (context.kind != RayKind::Camera || context.purpose != Purpose::Picture ||
+      context.illumination != Illumination::Lights || !batch.lights.asked())
     return;
   const LightList& lights = batch.group.lights();
   if (std::none_of(lights.begin(), lights.end(), [&](int light) { return isDirect(batch.scene.light(light)); })) {

@@ -36,7 +36,7 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 const LightSets* Lights::setsOf(const Batch& batch) const {
-  return group_ || batch.context.lights || !batch.points ? nullptr : batch.group.choice->sets(batch.scene);
+  return group_ || batch.context.onlyLightGroup || !batch.points ? nullptr : batch.group.choice->sets(batch.scene);
 }
 
 const LightList& Lights::alone(const Batch& batch) const {
@@ -61,7 +61,7 @@ void Lights::ambient(Batch& batch, const TmGrid& asking, TmVec3 out) {
 }
 
 std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
-  if (!evaluated_ && batch.points && batch.context.light != Illumination::Lights) substitute(batch);
+  if (!evaluated_ && batch.points && batch.context.illumination != Illumination::Lights) substitute(batch);
   const bool runsDirect = !evaluated_, runsIndirect = indirect && !indirectEvaluated_;
   evaluated_ = true;
   indirectEvaluated_ |= indirect;
@@ -85,13 +85,14 @@ std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
 
 /// Adds stored or unit light, as one light along the normal, in place of all lights or beside them.
 void Lights::substitute(Batch& batch) {
-  if (batch.context.light == Illumination::None || batch.points->inAir()) return;  // stored light is that of surfaces
+  if (batch.context.illumination == Illumination::None || batch.points->inAir())
+    return;  // stored light is that of surfaces
   const TmVec3 L = batch.arena.vec3(batch.tm.count), Cl = batch.arena.vec3(batch.tm.count);
   for (int i = 0; i < batch.points->count(); ++i) {
     set(L, i, batch.points->facingNormal(i));
-    set(Cl, i, vec3(batch.context.light == Illumination::Unit ? 1.0f : 0.0f));
+    set(Cl, i, vec3(batch.context.illumination == Illumination::Unit ? 1.0f : 0.0f));
   }
-  if (bringsStored(batch.context.light) && batch.scene.services)
+  if (bringsStored(batch.context.illumination) && batch.scene.services)
     batch.scene.services->storedIrradiance(*batch.points, batch.tm.active, Cl);
   samples_.push_back({.light = &batch.scene.stored, .L = L, .Cl = Cl, .toward = L, .far = L});
 }
@@ -193,7 +194,7 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
 
 void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity,
                       TmVec3 color) const {
-  const bool lit = bringsLights(batch.context.light) || bringsStored(batch.context.light);
+  const bool lit = bringsLights(batch.context.illumination) || bringsStored(batch.context.illumination);
   if (!lit || std::none_of(leaves, leaves + batch.points->count(), [](uint8_t l) { return l != 0; })) return;
   for (const int index : alone(batch)) {
     const BoundLight& light = batch.scene.light(index);

@@ -3,10 +3,10 @@
 // weights both (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering").
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
-#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/light_runs.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/remote_batch.h"
 #include "reyes/shade/services.h"
 
 namespace tomales {
@@ -175,7 +175,7 @@ class Highlight {
       chooseSide(view(L));
       forActive(g_, [&](int i) {
         weight[i] = side_[i] ? lobeAt(i).weight(get(L, i)) / static_cast<float>(count) : 0.0f;
-        if (batch_.context.depth > 0) weight[i] *= goesOn(i, weight[i]);
+        if (batch_.context.diffuseDepth > 0) weight[i] *= goesOn(i, weight[i]);
         side_[i] = weight[i] > 0;
       });
       batch_.scene.services->indirectAlong(*batch_.points, side_, {view(L), k, count}, light.query, batch_.context,
@@ -193,7 +193,7 @@ class Highlight {
     const float chance = std::min(0.5f * weight, kMostBranches);
     const SampleName name = batch_.points->name(i);
     const uint32_t draw = hashCombine(name.key ^ randomStream("goes"), name.sequence, batch_.context.seed,
-                                      static_cast<uint32_t>(batch_.context.depth));
+                                      static_cast<uint32_t>(batch_.context.diffuseDepth));
     return chance > 0 && unitFloat(draw) < chance ? 1 / chance : 0.0f;
   }
 

@@ -2,30 +2,32 @@
 #include <string_view>
 
 #include "reyes/attribute_table.h"
-#include "reyes/shade/elsewhere.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/primary.h"
+#include "reyes/shade/remote_batch.h"
 #include "reyes/shade/services.h"
 
 namespace tomales {
 namespace {
 
-int32_t tell(Batch& batch, const Param& p, int32_t* type, TmValue* out) {
+// The functions below return 1 and fill in the type and the value if there is such a value, else 0.
+
+int32_t answerParam(Batch& batch, const Param& p, int32_t* type, TmValue* out) {
   std::vector<float> numbers = p.floats;
   numbers.insert(numbers.end(), p.ints.begin(), p.ints.end());
   batch.answer(numbers, wordOf(&p), tmTypeOf(p.type), *type, *out);
   return 1;
 }
 
-int32_t tell(Batch& batch, const std::vector<float>& numbers, TmType as, int32_t* type, TmValue* out) {
-  batch.answer(numbers, "", as, *type, *out);
+int32_t answerNumbers(Batch& batch, const std::vector<float>& numbers, int32_t* type, TmValue* out) {
+  batch.answer(numbers, "", TM_FLOAT, *type, *out);
   return 1;
 }
 
 /// Finds a parameter of a shader among the values of one run. An output has none unless the shader has ended: what it
 /// begins with, a further parameter of that name in shaders of RSL, is no answer.
-int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type, TmValue* out,
-             bool ended = false) {
+int32_t answerShaderParameter(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type,
+                              TmValue* out, bool ended = false) {
   if (!shader) return 0;
   if (name == "__shadername") {
     *type = TM_STRING;
@@ -43,12 +45,12 @@ int32_t tell(const BoundShader* shader, const TmValue* values, std::string_view 
   return 0;
 }
 
-int32_t tell(const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
-  return shader ? tell(shader.get(), shader->values.data(), name, type, out) : 0;
+int32_t answerShaderParameter(const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
+  return shader ? answerShaderParameter(shader.get(), shader->values.data(), name, type, out) : 0;
 }
 
 /// Finds what the displacement shader has computed at the points. It has run at those that the camera sees alone.
-int32_t tellDisplaced(const Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+int32_t answerDisplaced(const Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   // Points in the air of a Volume have no variables.
   if (batch.context.kind != RayKind::Camera || !batch.points ||
       batch.points->primvarFloats() < batch.group.primvarFloats)
@@ -64,19 +66,19 @@ int32_t tellDisplaced(const Batch& batch, std::string_view name, int32_t* type, 
   return 0;
 }
 
-int32_t tellAttribute(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+int32_t answerAttribute(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   const Attributes& a = *batch.group.group->attributes;
   if (name.starts_with("Ri:")) name.remove_prefix(3);
   const NamedAttribute* row = findNamedAttribute(name);
-  if (row && row->get) return tell(batch, row->get(a), type, out);
+  if (row && row->get) return answerParam(batch, row->get(a), type, out);
   const Param* param = findParam(a.user, std::string(name));
-  return param ? tell(batch, *param, type, out) : 0;
+  return param ? answerParam(batch, *param, type, out) : 0;
 }
 
-int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+int32_t answerOption(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   const Options& o = batch.scene.scene.options;
   if (name.starts_with("Ri:")) name.remove_prefix(3);
-  const auto numbers = [&](const std::vector<float>& n) { return tell(batch, n, TM_FLOAT, type, out); };
+  const auto numbers = [&](const std::vector<float>& n) { return answerNumbers(batch, n, type, out); };
   if (name == "Format")
     return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
   if (name == "Shutter") return numbers({o.shutterOpen, o.shutterClose});
@@ -85,10 +87,10 @@ int32_t tellOption(Batch& batch, std::string_view name, int32_t* type, TmValue* 
   if (name == "PixelSamples") return numbers({static_cast<float>(o.xSamples), static_cast<float>(o.ySamples)});
   if (name == "Frame") return numbers({static_cast<float>(o.frame)});
   const Param* param = findParam(o.user, std::string(name));
-  return param ? tell(batch, *param, type, out) : 0;
+  return param ? answerParam(batch, *param, type, out) : 0;
 }
 
-int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+int32_t answerRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   if (name == "renderer") {
     batch.answer({}, "Tomales", TM_STRING, *type, *out);
     return 1;
@@ -105,16 +107,16 @@ int32_t tellRenderer(Batch& batch, std::string_view name, int32_t* type, TmValue
       version[part] = 10 * version[part] + static_cast<float>(text[begin] - '0');
     ++begin;
   }
-  return tell(batch, version, TM_FLOAT, type, out);
+  return answerNumbers(batch, version, type, out);
 }
 
 /// Finds a parameter of the incident or opposite volume. Which volume that is depends on the side that is seen, point
 /// by point; strings and arrays are those of the first point.
-int32_t tellVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
+int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};
-  const bool has[2] = {tell(batch.group.exterior, name, &types[0], &side[0]) != 0,
-                       tell(batch.group.interior, name, &types[1], &side[1]) != 0};
+  const bool has[2] = {answerShaderParameter(batch.group.exterior, name, &types[0], &side[0]) != 0,
+                       answerShaderParameter(batch.group.interior, name, &types[1], &side[1]) != 0};
   const auto inside = [&](int i) { return (dot(get(g->I, i), get(g->Ng, i)) > 0) == incident; };
   int first = 0;
   while (first + 1 < g->count && !g->active[first]) ++first;
@@ -138,27 +140,29 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
   const auto kindIs = [&](TmKind kind) { return batch.own && batch.own->shader->kind == kind; };
   switch (whom) {
     case TM_OF_SURFACE:
-      return kindIs(TM_SURFACE) ? tell(batch.own, batch.tm.params, name, type, out)
-                                : tell(group.surface, name, type, out);
+      return kindIs(TM_SURFACE) ? answerShaderParameter(batch.own, batch.tm.params, name, type, out)
+                                : answerShaderParameter(group.surface, name, type, out);
     case TM_OF_DISPLACEMENT:
-      if (kindIs(TM_DISPLACEMENT)) return tell(batch.own, batch.tm.params, name, type, out);
-      return tellDisplaced(batch, name, type, out) || tell(group.displacement, name, type, out);
+      if (kindIs(TM_DISPLACEMENT)) return answerShaderParameter(batch.own, batch.tm.params, name, type, out);
+      return answerDisplaced(batch, name, type, out) || answerShaderParameter(group.displacement, name, type, out);
     case TM_OF_ATMOSPHERE:
-      return tell(group.atmosphere, name, type, out);
+      return answerShaderParameter(group.atmosphere, name, type, out);
     case TM_OF_INCIDENT:
     case TM_OF_OPPOSITE:
-      return tellVolume(batch, g, whom == TM_OF_INCIDENT, name, type, out);
+      return answerVolume(batch, g, whom == TM_OF_INCIDENT, name, type, out);
     case TM_OF_LIGHT: {
-      if (light < 0) return tell(batch.running, g->params, name, type, out);
+      if (light < 0) return answerShaderParameter(batch.running, g->params, name, type, out);
       const LightSample* sample = lightNumbered(batch, light);
-      return sample && sample->params ? tell(sample->light->bound.get(), sample->params, name, type, out, true) : 0;
+      return sample && sample->params
+                 ? answerShaderParameter(sample->light->bound.get(), sample->params, name, type, out, true)
+                 : 0;
     }
     case TM_OF_ATTRIBUTES:
-      return tellAttribute(batch, name, type, out);
+      return answerAttribute(batch, name, type, out);
     case TM_OF_OPTIONS:
-      return tellOption(batch, name, type, out);
+      return answerOption(batch, name, type, out);
     case TM_OF_RENDERER:
-      return tellRenderer(batch, name, type, out);
+      return answerRenderer(batch, name, type, out);
     default:
       return 0;
   }

@@ -188,8 +188,8 @@ int32_t rayInfo(void* host, const TmGrid* g, const char* name, TmVec3 out) {
   };
   if (what == "type") return number(static_cast<int>(c.kind));
   if (what == "highlights") return number(c.kind != RayKind::Diffuse || c.highlights == HitHighlights::All);
-  if (what == "depth") return number(c.depth + c.specularDepth);
-  if (what == "diffusedepth") return number(c.depth);
+  if (what == "depth") return number(c.diffuseDepth + c.specularDepth);
+  if (what == "diffusedepth") return number(c.diffuseDepth);
   if (what == "speculardepth") return number(c.specularDepth);
   if (what == "shadowdepth") return number(c.kind == RayKind::Transmission);
   if (what == "importance") return number(c.importance);

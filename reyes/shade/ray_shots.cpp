@@ -71,7 +71,7 @@ vec2 Cone::random(int i, int ray, uint32_t stream) const {
   const auto number = static_cast<uint32_t>(options_.number * options_.samples + ray);
   const uint32_t index = name.sequence * static_cast<uint32_t>(options_.samples * std::max(1, options_.drawn)) + number;
   return sobol2(index, hashCombine(name.key, stream, batch_.context.seed,
-                                   static_cast<uint32_t>(batch_.context.depth + batch_.context.specularDepth)));
+                                   static_cast<uint32_t>(batch_.context.diffuseDepth + batch_.context.specularDepth)));
 }
 
 vec3 Cone::around(const vec3& axis, const vec2& xi) const {

@@ -62,7 +62,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
   const int count = points.count();
   out.resize(count);
   std::vector<BoundVariable> told;
-  if (context.told) told = bindOutputs(*context.told, shader);
+  if (context.outputs) told = bindOutputs(*context.outputs, shader);
   const std::vector<BoundVariable>& variables = context.variables ? group.variables : told;
   if (!variables.empty()) allocateVariables(variables, count, out);
 

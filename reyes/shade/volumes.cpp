@@ -67,7 +67,7 @@ namespace {
 
 void crossed(void* host, const TmGrid* g, int32_t byAmount, float* distance, float* amount, float* density) {
   const Batch& batch = batchOf(host);
-  const std::span<const DensityAlongRay> ways = batch.context.ways;
+  const std::span<const DensityAlongRay> ways = batch.context.densities;
   forActive(g, [&](int i) {
     if (ways.empty() || !batch.points) {
       (byAmount ? distance : amount)[i] = (byAmount ? amount : distance)[i];

@@ -84,7 +84,7 @@ class Check {
     if (shader_.capabilities & TM_EMITS) return;
     ShadeContext dark;
     dark.kind = RayKind::Diffuse;
-    dark.light = Illumination::None;
+    dark.illumination = Illumination::None;
     run(dark);
     for (int i = 0; i < kPoints; ++i)
       if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, and has not declared TM_EMITS");
@@ -94,7 +94,7 @@ class Check {
     if (!(shader_.capabilities & TM_EVEN)) return;
     ShadeContext even;
     even.kind = RayKind::Diffuse;
-    even.light = Illumination::Unit;
+    even.illumination = Illumination::Unit;
     run(even, true);
     const auto differ = [](const vec3& a, const vec3& b) {
       return glm::any(glm::greaterThan(glm::abs(a - b), 1e-4f * glm::max(vec3(1), glm::abs(a))));

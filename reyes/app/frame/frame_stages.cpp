@@ -8,7 +8,7 @@ namespace {
 
 ShadeContext contextOf(const FrameJob& job, const ShownLight& light) {
   ShadeContext context = job.shadeContext();
-  context.lights = light.lights;
+  context.onlyLightGroup = light.lights;
   context.indirect = light.indirect;
   return context;
 }

@@ -11,7 +11,7 @@ bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAcce
 
 /// The light in which a part of a frame is shown.
 struct ShownLight {
-  const std::string* lights = nullptr;  ///< ShadeContext::lights.
+  const std::string* lights = nullptr;  ///< ShadeContext::onlyLightGroup.
   bool indirect = true;
 };
 /// The tiles of showWindow(), from any thread.

@@ -184,7 +184,7 @@ TEST(RayOutputs, DiffuseRaysAreAsDeepAsTheObjectsOnTheWayAllow) {
     query.kind = RayKind::Diffuse;
     for (int depth = 0; depth < 5; ++depth) {
       ShadeContext context;  // of a point that a ray of this depth has met, whose path allows two more
-      context.depth = depth;
+      context.diffuseDepth = depth;
       context.diffuseLimit = depth + 2;
       EXPECT_EQ(Shot(*services, vec3(0), query, {}, context).distance < kInfinity, limit >= 1)
           << "limit " << limit << ", depth " << depth;

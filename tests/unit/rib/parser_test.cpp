@@ -198,7 +198,7 @@ TEST(Dictionary, TakesDeclarationsWithMissingParts) {
 }
 
 TEST(RequestTable, KnowsRequestsThatAreNotSupported) {
-  EXPECT_EQ(rib::findSignature("VPInterior")->support, rib::Support::NotYet);
+  EXPECT_EQ(rib::findSignature("VPInterior")->support, rib::Support::Ignored);
   EXPECT_EQ(rib::findSignature("NoSuchRequest"), nullptr);
   const Requests r(
       "NuPatch 4 3 [0 0 0 1 1 1 2] 0 1 3 3 [0 0 0 1 1 1] 0 1 \"Pw\" [0 0 0 1]\n"

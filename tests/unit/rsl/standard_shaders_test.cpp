@@ -227,7 +227,7 @@ TEST_P(StandardShaders, AreFoundToBeWhatTheyAre) {
     Studio studio(true);
     ShadeContext context;
     context.kind = RayKind::Diffuse;
-    context.light = light;
+    context.illumination = light;
     return studio.surfaceOf(name, params, context);
   };
   const uint32_t found = Studio(true).shader(name, kind).capabilities;

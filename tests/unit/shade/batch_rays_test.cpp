@@ -143,7 +143,7 @@ TEST_F(BatchRays, ImportanceIsTheProductOfWeights) {
 TEST_F(BatchRays, PointsKnowTheRayThatCame) {
   ShadeContext context;
   context.kind = RayKind::Diffuse;
-  context.depth = 2;
+  context.diffuseDepth = 2;
   context.specularDepth = 1;
   context.label = "here";
   const std::vector<vec3> c = asked(

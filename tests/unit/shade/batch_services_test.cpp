@@ -113,7 +113,7 @@ TEST_F(BatchServices, WhatRaysMeetAsksForFewerRaysThanWhatTheEyeSees) {
   const auto hemisphere = [&](int samples, const ShadeContext& context) {
     return rays(context, [&](sl::Surface& s) { s.Ci = Color(occlusion(s.P, s.N, samples)); });
   };
-  const ShadeContext gathered{.kind = RayKind::Diffuse, .depth = 1, .branches = 1000};
+  const ShadeContext gathered{.kind = RayKind::Diffuse, .diffuseDepth = 1, .branches = 1000};
   EXPECT_EQ(hemisphere(128, {}), 128u);
   EXPECT_EQ(hemisphere(128, {.branches = 4}), 32u) << "one of four rays of a point";
   EXPECT_EQ(hemisphere(128, {.branches = 1000}), 16u) << "shaders may square what they get";
@@ -125,7 +125,7 @@ TEST_F(BatchServices, WhatRaysMeetAsksForFewerRaysThanWhatTheEyeSees) {
   EXPECT_EQ(cone(24, {}), 24u);
   EXPECT_EQ(cone(24, {.branches = 4}), 6u);
   EXPECT_EQ(cone(24, {.branches = 1000}), 1u);
-  EXPECT_EQ(cone(24, {.kind = RayKind::Diffuse, .depth = 1}), 1u);
+  EXPECT_EQ(cone(24, {.kind = RayKind::Diffuse, .diffuseDepth = 1}), 1u);
   const auto nearest = [&](sl::Surface& s) { s.Ci = Color(traceDistance(s.P, s.N, "samples", 24)); };
   EXPECT_EQ(rays({.branches = 4}, nearest), 24u) << "fewer rays would find it farther away";
 }

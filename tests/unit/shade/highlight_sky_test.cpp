@@ -53,7 +53,7 @@ TEST_F(WideHighlight, OfStoredLightIsThatOfAnEvenSky) {
   services.stored = vec3(2);
   ShadeContext gather;
   gather.kind = RayKind::Diffuse;
-  gather.light = Illumination::LightsAndStored;
+  gather.illumination = Illumination::LightsAndStored;
   gather.highlights = HitHighlights::OfSpecular;
   expectColor(shadeOne(gather), vec3(2 * 8.0f / 3 * (1 - std::pow(2.0f, -1.5f))));
 }

@@ -122,7 +122,7 @@ TEST_F(RayServices, APointKnowsTheRayThatCame) {
   EXPECT_EQ(mean(Ask::Info, 1), vec3(0));
   ShadeContext context;
   context.kind = RayKind::Specular;
-  context.depth = 1;
+  context.diffuseDepth = 1;
   context.specularDepth = 2;
   context.label = "here";
   EXPECT_EQ(mean(Ask::Info, 1, context), vec3(2, 3, 1));

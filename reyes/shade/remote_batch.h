@@ -8,10 +8,11 @@
 
 namespace tomales {
 
-/// A batch at other positions, with lights of its own.
-struct Elsewhere {
+/// A copy of a batch at other positions, whose lights run for these, made because the batch's shader asks for light
+/// there.
+struct RemoteBatch {
   /// Copies what the query says. `asking` must have points, and the query a P.
-  Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int number);
+  RemoteBatch(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int number);
   /// Tells whether it was made for this query.
   bool isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const;
 
@@ -23,8 +24,8 @@ struct Elsewhere {
   Batch batch;
 };
 
-/// Returns the batch whose lights answer a query: `batch` itself, or one of the latest that it has asked elsewhere.
-Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query);
+/// Returns the batch whose lights answer a query: `batch` itself, or one of its latest remote batches.
+Batch& remoteBatchOf(Batch& batch, const TmGrid* g, TmIlluminance query);
 
 /// Returns the number that TmIlluminance::light gives to a sample.
 int32_t lightNumber(const Batch& batch, const Batch& place, size_t sample);

@@ -1,4 +1,4 @@
-#include "reyes/shade/elsewhere.h"
+#include "reyes/shade/remote_batch.h"
 
 #include <bit>
 
@@ -73,17 +73,17 @@ LightMessage copied(const TmMessage& sent, const TmGrid* g, Arena& arena) {
 
 }  // namespace
 
-Elsewhere::Elsewhere(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int n)
+RemoteBatch::RemoteBatch(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int n)
     : number(n), context(asking.context), points(*asking.points), batch(asking.scene, asking.group, context, *arena) {
   context.answers = nullptr;  // answers are named by the light alone, not by where it arrives
   moveTo(query.P, g->active, inAir, points);
   request.category = query.category ? query.category : "";
   for (int i = 0; i < query.sentCount; ++i) request.sent.push_back(copied(query.sent[i], g, *arena));
-  batch.setElsewhere(asking, g, points);
+  batch.setRemote(asking, g, points);
   batch.lights.ask(request);
 }
 
-bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const {
+bool RemoteBatch::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) const {
   if (points.inAir() != inAir || request.category != (query.category ? query.category : "") ||
       request.sent.size() != static_cast<size_t>(query.sentCount))
     return false;
@@ -95,20 +95,21 @@ bool Elsewhere::isFor(const TmGrid* g, const TmIlluminance& query, bool inAir) c
   return true;
 }
 
-Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
+Batch& remoteBatchOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
   if (!batch.points || batch.running != batch.own) return batch;  // a light that asks gets the lights that have run
   const bool inAir = query.P.x && batch.own->shader->kind == TM_VOLUME, isTold = query.sentCount > 0 || query.refresh;
   if (!query.P.x) query.P = batch.points->vec(kPx);
   if (!isTold && !inAir && atOwnPoints(batch, g, query)) return batch;
-  auto& places = batch.elsewhere;
+  auto& places = batch.remoteBatches;
   const bool anew = query.refresh && query.next == 0;
   auto it =
       std::find_if(places.begin(), places.end(), [&](const auto& p) { return !anew && p->isFor(g, query, inAir); });
   if (it == places.end()) {
     if (places.size() == kRemembered) places.pop_back();
-    do batch.placesAsked = batch.placesAsked % kNumbers + 1;
-    while (std::any_of(places.begin(), places.end(), [&](const auto& p) { return p->number == batch.placesAsked; }));
-    it = places.insert(places.begin(), std::make_unique<Elsewhere>(batch, g, query, inAir, batch.placesAsked));
+    do batch.remoteBatchesAsked = batch.remoteBatchesAsked % kNumbers + 1;
+    while (std::any_of(places.begin(), places.end(),
+                       [&](const auto& p) { return p->number == batch.remoteBatchesAsked; }));
+    it = places.insert(places.begin(), std::make_unique<RemoteBatch>(batch, g, query, inAir, batch.remoteBatchesAsked));
   }
   std::rotate(places.begin(), it, it + 1);
   Batch& place = places.front()->batch;
@@ -117,14 +118,14 @@ Batch& placeOf(Batch& batch, const TmGrid* g, TmIlluminance query) {
 }
 
 int32_t lightNumber(const Batch& batch, const Batch& place, size_t sample) {
-  const int number = &place == &batch ? 0 : batch.elsewhere.front()->number;
+  const int number = &place == &batch ? 0 : batch.remoteBatches.front()->number;
   return number * kSamples + static_cast<int32_t>(sample);
 }
 
 LightSample* lightNumbered(Batch& batch, int32_t number) {
   if (number < 0) return nullptr;
   Batch* place = number < kSamples ? &batch : nullptr;
-  for (const auto& p : batch.elsewhere)
+  for (const auto& p : batch.remoteBatches)
     if (p->number == number / kSamples) place = &p->batch;
   if (!place) return nullptr;
   if (place != &batch) place->lights.restrictTo(batch.lights.group());
