@@ -70,7 +70,7 @@ struct Globals {
   /// Options::searchPaths before `dirMap` was applied. A new map applies to these, and so does `&` in a new path:
   /// headers of frames set both again, and no path may be mapped twice.
   std::map<std::string, std::string> unmappedPaths;
-  Patterns patterns;
+  RisState ris;
   std::map<std::string, ParamList> quantized;  ///< Parameters of Quantize by variable, for Displays that show it.
 };
 

@@ -10,10 +10,10 @@
 namespace tomales::rib {
 namespace {
 
-using Translator = Translation (*)(const Request&, Patterns&);
+using Translator = Translation (*)(const Request&, RisState&);
 
 // A path of length 1 is direct light alone (maxPathLength of PRMan 19 to 22).
-Translation integrator(const Request& r, Patterns&) {
+Translation integrator(const Request& r, RisState&) {
   const std::string& name = r.args[0].strings[0];
   if (name == "PxrDirectLighting") return {{}, {standsIn(r, "direct light of the scene's own lights")}};
   ParamList params;
@@ -27,14 +27,14 @@ Translation integrator(const Request& r, Patterns&) {
           {standsIn(r, "indirectlight", severity)}};
 }
 
-Translation ignored(const Request& r, Patterns&) { return {{}, {note(r, "is not available: ignored")}}; }
+Translation ignored(const Request& r, RisState&) { return {{}, {note(r, "is not available: ignored")}}; }
 
-Translation pattern(const Request& r, Patterns& patterns) {
-  patterns[r.args[1].strings[0]] = r;
+Translation pattern(const Request& r, RisState& state) {
+  state.patterns[r.args[1].strings[0]] = r;
   return {};  // the requests that refer to it report its fate
 }
 
-Translation camera(const Request& r, Patterns&) {
+Translation camera(const Request& r, RisState&) {
   return {
       {},
       {{"Camera", "Camera: the one camera is that of Projection and WorldBegin; its name and parameters are ignored",
@@ -42,8 +42,8 @@ Translation camera(const Request& r, Patterns&) {
 }
 
 // A PxrBackground lies behind the picture; other filters change the picture.
-Translation displayFilter(const Request& r, Patterns& patterns) {
-  if (!r.args[0].strings[0].starts_with("PxrBackground")) return ignored(r, patterns);
+Translation displayFilter(const Request& r, RisState& state) {
+  if (!r.args[0].strings[0].starts_with("PxrBackground")) return ignored(r, state);
   return {
       Script(r)
           .say("Imager", {string("background")}, {param("bgcolor", ValueType::Color, color(r, "backgroundColor", 0))})
@@ -53,12 +53,12 @@ Translation displayFilter(const Request& r, Patterns& patterns) {
 
 const std::unordered_map<std::string_view, Translator>& translators() {
   static const std::unordered_map<std::string_view, Translator> table = {
-      {"Bxdf", [](const Request& r, Patterns& patterns) { return risBxdf(r, patterns); }},
-      {"Light", [](const Request& r, Patterns&) { return risLight(r); }},
+      {"Bxdf", [](const Request& r, RisState& state) { return risBxdf(r, state.patterns); }},
+      {"Light", [](const Request& r, RisState&) { return risLight(r); }},
       {"AreaLightSource", stdLight},
-      {"Geometry", envSphere},
-      {"Option", [](const Request& r, Patterns&) { return riValues(r); }},
-      {"Attribute", [](const Request& r, Patterns&) { return riValues(r); }},
+      {"Geometry", [](const Request& r, RisState& state) { return envSphere(r, state); }},
+      {"Option", [](const Request& r, RisState&) { return riValues(r); }},
+      {"Attribute", [](const Request& r, RisState&) { return riValues(r); }},
       {"Integrator", integrator},
       {"Pattern", pattern},
       {"Camera", camera},
@@ -88,6 +88,6 @@ bool isRis(const Request& r) {
   return translators().contains(r.name);
 }
 
-Translation translateRis(const Request& r, Patterns& patterns) { return translators().at(r.name)(r, patterns); }
+Translation translateRis(const Request& r, RisState& state) { return translators().at(r.name)(r, state); }
 
 }  // namespace tomales::rib

@@ -1,5 +1,7 @@
 // Translates requests of the RIS era of PRMan to requests that say nearly the same in terms of Tomales.
 #pragma once
+#include <optional>
+
 #include "reyes/rib.h"
 
 namespace tomales::rib {
@@ -20,9 +22,15 @@ struct Translation {
 /// Pattern requests by handle: the parameters of others refer to their outputs.
 using Patterns = std::map<std::string, Request>;
 
+/// What requests of the RIS era leave for later ones.
+struct RisState {
+  Patterns patterns;
+  std::optional<Request> areaLight;  ///< The latest AreaLightSource of PRMan 19 and 20; its shape may follow.
+};
+
 bool isRis(const Request& request);
 /// Pre: isRis(request).
-Translation translateRis(const Request& request, Patterns& patterns);
+Translation translateRis(const Request& request, RisState& state);
 
 /// Returns the name that Tomales has for the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its
 /// type; unknown sources stay as they are.

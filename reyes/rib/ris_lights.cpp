@@ -60,16 +60,13 @@ Translation meshLight(const Request& r) {
   return {script.list(), {standsIn(r, "arealight")}};
 }
 
-// The handle for the light of PRMan 19 and 20 that has no shape yet; no Pattern can have this handle.
-const std::string kStdLight = "AreaLightSource\n";
-
 }  // namespace
 
 // Tells lights apart by a part of the name: RenderMan for Maya 19 and 20 name the shader after the light that they
 // wrote it for, as "shaders/PxrStdAreaLightShape1_rfm".
-Translation stdLight(const Request& r, Patterns& patterns) {
+Translation stdLight(const Request& r, RisState& state) {
   const auto is = [&](const char* kind) { return r.args[0].strings[0].find(kind) != std::string::npos; };
-  patterns[kStdLight] = r;
+  state.areaLight = r;
   if (is("PxrStdEnvMapLight")) return domeLight(r);
   if (is("PxrStdEnvDayLight")) return dayLight(r);
   if (is("PxrStdAreaLight")) return meshLight(r);
@@ -77,11 +74,9 @@ Translation stdLight(const Request& r, Patterns& patterns) {
 }
 
 // Skies are not drawn. Those of the two other kinds are lights already.
-Translation envSphere(const Request& r, Patterns& patterns) {
-  const auto light = patterns.find(kStdLight);
-  if (light == patterns.end() || light->second.args[0].strings[0].find("PxrStdAreaLight") == std::string::npos)
-    return {};
-  Translation sky = domeLight(light->second);
+Translation envSphere(const Request& r, const RisState& state) {
+  if (!state.areaLight || state.areaLight->args[0].strings[0].find("PxrStdAreaLight") == std::string::npos) return {};
+  Translation sky = domeLight(*state.areaLight);
   for (Note& n : sky.notes) {
     n.key += " envsphere";
     n.where = r.where;

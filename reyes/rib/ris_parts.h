@@ -50,8 +50,8 @@ Note standsIn(const Request& request, const std::string& substitute, Severity se
 Translation risBxdf(const Request& request, const Patterns& patterns);
 Translation risLight(const Request& request);
 /// AreaLightSource of PRMan 19 and 20, and Geometry "envsphere", the sky that one may be.
-Translation stdLight(const Request& request, Patterns& patterns);
-Translation envSphere(const Request& request, Patterns& patterns);
+Translation stdLight(const Request& request, RisState& state);
+Translation envSphere(const Request& request, const RisState& state);
 /// Translates Option and Attribute "Ri".
 Translation riValues(const Request& request);
 /// Translates PxrEnvDayLight.

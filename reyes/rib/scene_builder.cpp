@@ -12,9 +12,6 @@
 namespace tomales::rib {
 namespace {
 
-const std::pair<std::string_view, Block> kBlocks[] = {
-    {"Attribute", Block::Attribute}, {"Transform", Block::Transform}, {"Solid", Block::Solid}};
-
 bool isBlockRequest(std::string_view name) { return name.ends_with("Begin") || name.ends_with("End"); }
 
 bool allowsInfinity(std::string_view name) {
@@ -124,7 +121,7 @@ bool SceneBuilder::refuse(const Request& r) {
 }
 
 void SceneBuilder::performRis(const Request& r) {
-  const Translation translation = translateRis(r, state_.globals.patterns);
+  const Translation translation = translateRis(r, state_.globals.ris);
   for (const Note& note : translation.notes) state_.warnOnce(note.key, note.where, note.code, note.text, note.severity);
   const size_t lights = state_.globals.lights.size();
   for (const Request& request : translation.requests) perform(request);
@@ -143,49 +140,67 @@ float SceneBuilder::rasterArea(const std::vector<float>& b) const {
   return std::min(frame, (raster.hi.x - raster.lo.x) * (raster.hi.y - raster.lo.y));
 }
 
-bool SceneBuilder::performBlock(const Request& r) {
-  if (r.name == "Declare" && !inProcedural_) state_.declared[r.args[0].strings[0]] = r.args[1].strings[0];
-  if (r.name == "version" || r.name == "Declare" || r.name == "ColorSamples" || r.name == "ReadArchive")
-    return true;  // the reader performs it
-  if (r.name == "ErrorHandler") {
-    if (r.args[0].strings[0] != "print")
-      state_.warnOnce(r.name, r, "rib-unsupported", "ErrorHandler: problems are always reported, and never abort");
-  } else if (r.name == "FrameBegin") {
-    if (state_.isOpen(Block::Frame))
-      endFrame(r.where);
-    else if (state_.world)
-      endUnclosedWorld(r.where);
-    state_.begin(Block::Frame, r.where);
-    state_.globals.options.frame = r.args[0].integer();
-  } else if (r.name == "FrameEnd") {
+void SceneBuilder::beginFrame(const Request& r) {
+  if (state_.isOpen(Block::Frame))
     endFrame(r.where);
-  } else if (r.name == "WorldBegin") {
-    beginWorld(r);
-  } else if (r.name == "WorldEnd") {
-    endWorld(r.where);
-  } else if (r.name == "MotionBegin") {
-    beginMotion(r);
-  } else if (r.name == "MotionEnd" || r.name == "ObjectEnd") {
-    state_.warn(r, "rib-unbalanced", "without its Begin, ignored");
-  } else if (r.name == "ObjectBegin") {
-    recording_ = ObjectRecording{.begin = r};
-  } else if (r.name == "ObjectInstance") {
-    instance(r);
-  } else if (r.name.starts_with("Make") && findSignature(r.name)->support == Support::Works) {
-    if (settings_.onMake) settings_.onMake(r);
-  } else {
-    const auto block = std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& b) {
-      return r.name.starts_with(b.first) && isBlockRequest(r.name);
-    });
-    if (block == std::end(kBlocks)) return false;
-    if (r.name == "SolidEnd") endSolid(state_, r);
-    if (r.name.ends_with("Begin"))
-      state_.begin(block->second, r.where);
-    else
-      state_.end(block->second, r.where);
-    if (r.name == "SolidBegin") beginSolid(state_, r);
+  else if (state_.world)
+    endUnclosedWorld(r.where);
+  state_.begin(Block::Frame, r.where);
+  state_.globals.options.frame = r.args[0].integer();
+}
+
+void SceneBuilder::beginSolidBlock(const Request& r) {
+  state_.begin(Block::Solid, r.where);
+  beginSolid(state_, r);
+}
+
+void SceneBuilder::endSolidBlock(const Request& r) {
+  endSolid(state_, r);
+  state_.end(Block::Solid, r.where);
+}
+
+void SceneBuilder::declare(const Request& r) {
+  if (!inProcedural_) state_.declared[r.args[0].strings[0]] = r.args[1].strings[0];
+}
+
+void SceneBuilder::errorHandler(const Request& r) {
+  if (r.args[0].strings[0] != "print")
+    state_.warnOnce(r.name, r, "rib-unsupported", "ErrorHandler: problems are always reported, and never abort");
+}
+
+void SceneBuilder::warnOfEnd(const Request& r) { state_.warn(r, "rib-unbalanced", "without its Begin, ignored"); }
+
+bool SceneBuilder::performBlock(const Request& r) {
+  using Builder = SceneBuilder;
+  const auto ofReader = [](Builder&, const Request&) {};  // the reader performs these
+  static const std::unordered_map<std::string_view, void (*)(Builder&, const Request&)> table = {
+      {"version", ofReader},
+      {"ColorSamples", ofReader},
+      {"ReadArchive", ofReader},
+      {"Declare", [](Builder& b, const Request& q) { b.declare(q); }},
+      {"ErrorHandler", [](Builder& b, const Request& q) { b.errorHandler(q); }},
+      {"FrameBegin", [](Builder& b, const Request& q) { b.beginFrame(q); }},
+      {"FrameEnd", [](Builder& b, const Request& q) { b.endFrame(q.where); }},
+      {"WorldBegin", [](Builder& b, const Request& q) { b.beginWorld(q); }},
+      {"WorldEnd", [](Builder& b, const Request& q) { b.endWorld(q.where); }},
+      {"MotionBegin", [](Builder& b, const Request& q) { b.beginMotion(q); }},
+      {"MotionEnd", [](Builder& b, const Request& q) { b.warnOfEnd(q); }},
+      {"ObjectBegin", [](Builder& b, const Request& q) { b.recording_ = ObjectRecording{.begin = q}; }},
+      {"ObjectEnd", [](Builder& b, const Request& q) { b.warnOfEnd(q); }},
+      {"ObjectInstance", [](Builder& b, const Request& q) { b.instance(q); }},
+      {"AttributeBegin", [](Builder& b, const Request& q) { b.state_.begin(Block::Attribute, q.where); }},
+      {"AttributeEnd", [](Builder& b, const Request& q) { b.state_.end(Block::Attribute, q.where); }},
+      {"TransformBegin", [](Builder& b, const Request& q) { b.state_.begin(Block::Transform, q.where); }},
+      {"TransformEnd", [](Builder& b, const Request& q) { b.state_.end(Block::Transform, q.where); }},
+      {"SolidBegin", [](Builder& b, const Request& q) { b.beginSolidBlock(q); }},
+      {"SolidEnd", [](Builder& b, const Request& q) { b.endSolidBlock(q); }}};
+  if (const auto it = table.find(r.name); it != table.end()) {
+    it->second(*this, r);
+    return true;
   }
-  return true;
+  const bool makes = r.name.starts_with("Make") && findSignature(r.name)->support == Support::Works;
+  if (makes && settings_.onMake) settings_.onMake(r);
+  return makes;
 }
 
 bool SceneBuilder::performHandler(const Request& r) {

@@ -64,10 +64,17 @@ class SceneBuilder : public RiSink {
   void perform(const Request& request);
   /// Returns true, and reports it, if it has no place in a procedural.
   bool refuse(const Request& request);
+  /// Performs what changes more than the graphics state. Returns false if the request is none of those.
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
   void performRis(const Request& request);
 
+  void declare(const Request& request);
+  void errorHandler(const Request& request);
+  void warnOfEnd(const Request& request);
+  void beginSolidBlock(const Request& request);
+  void endSolidBlock(const Request& request);
+  void beginFrame(const Request& request);
   void beginWorld(const Request& request);
   void endWorld(const SourceLoc& where);
   void endUnclosedWorld(const SourceLoc& where);
