@@ -144,25 +144,40 @@ void Checker::declaration(Variable& v) {
   declare(v);
 }
 
+void Checker::block(Stmt& s) {
+  scopes_.emplace_back();
+  for (const StmtPtr& part : s.body) statement(*part);
+  for (const auto& [name, v] : scopes_.back().variables) {
+    if (v->outer || v->global >= 0) continue;
+    const auto length = static_cast<int32_t>(name.size());
+    if (!v->used)
+      messages_.warning(v->place, fmt::format("the variable \"{}\" is never read", name), length);
+    else if (!v->assigned)
+      messages_.warning(v->place, fmt::format("\"{}\" is read, and nothing is ever assigned to it: it is 0", name),
+                        length);
+  }
+  scopes_.pop_back();
+}
+
+void Checker::loopBody(Stmt& s) {
+  ++loops_;
+  statement(s);
+  --loops_;
+}
+
+void Checker::forLoop(Stmt& s) {
+  if (s.exprs[0]) type(*s.exprs[0]);
+  if (s.exprs[1]) condition(*s.exprs[1]);
+  if (s.exprs[2]) type(*s.exprs[2]);
+  loopBody(*s.body[0]);
+}
+
 void Checker::statement(Stmt& s) {
   switch (s.kind) {
     case StmtKind::Empty:
       return;
-    case StmtKind::Block: {
-      scopes_.emplace_back();
-      for (const StmtPtr& part : s.body) statement(*part);
-      for (const auto& [name, v] : scopes_.back().variables) {
-        if (v->outer || v->global >= 0) continue;
-        const auto length = static_cast<int32_t>(name.size());
-        if (!v->used)
-          messages_.warning(v->place, fmt::format("the variable \"{}\" is never read", name), length);
-        else if (!v->assigned)
-          messages_.warning(v->place, fmt::format("\"{}\" is read, and nothing is ever assigned to it: it is 0", name),
-                            length);
-      }
-      scopes_.pop_back();
-      return;
-    }
+    case StmtKind::Block:
+      return block(s);
     case StmtKind::Expression:
       type(*s.exprs[0]);
       return;
@@ -175,18 +190,9 @@ void Checker::statement(Stmt& s) {
       return;
     case StmtKind::While:
       condition(*s.exprs[0]);
-      ++loops_;
-      statement(*s.body[0]);
-      --loops_;
-      return;
+      return loopBody(*s.body[0]);
     case StmtKind::For:
-      if (s.exprs[0]) type(*s.exprs[0]);
-      if (s.exprs[1]) condition(*s.exprs[1]);
-      if (s.exprs[2]) type(*s.exprs[2]);
-      ++loops_;
-      statement(*s.body[0]);
-      --loops_;
-      return;
+      return forLoop(s);
     case StmtKind::Break:
     case StmtKind::Continue:
       return jump(s);
@@ -242,9 +248,7 @@ void Checker::illuminance(Stmt& s) {
     expect(*e[at++], {Base::Float}, "as the angle of illuminance()");
   }
   list(e, at, "illuminance");
-  ++loops_;
-  statement(*s.body[0]);
-  --loops_;
+  loopBody(*s.body[0]);
 }
 
 void Checker::illuminate(Stmt& s) {
@@ -277,9 +281,7 @@ void Checker::gather(Stmt& s) {
   const Base wanted[5] = {Base::String, Base::Point, Base::Vector, Base::Float, Base::Float};
   for (size_t i = 0; i < 5; ++i) expect(*e[i], {wanted[i]}, fmt::format("as argument {} of gather()", i + 1).c_str());
   list(e, 5, "gather");
-  ++loops_;
-  statement(*s.body[0]);
-  --loops_;
+  loopBody(*s.body[0]);
   if (s.body.size() > 1) statement(*s.body[1]);
 }
 

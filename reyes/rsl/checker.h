@@ -23,6 +23,9 @@ class Checker {
   void parameter(Variable& v);
   void initialise(Variable& v);
   void statement(Stmt& s);
+  void block(Stmt& s);
+  void loopBody(Stmt& s);  ///< Checks a statement that `break` and `continue` may leave.
+  void forLoop(Stmt& s);
   void condition(Expr& e);
   void declaration(Variable& v);
   void illuminance(Stmt& s);

@@ -30,7 +30,7 @@ int returnsIn(const Stmt& s) {
 }  // namespace
 
 // Arguments are passed by reference (RISpec 12.3): a plain variable of the parameter's own type is the parameter.
-int32_t Lowering::inlined(const Expr& e, const Function& f) {
+std::vector<std::pair<const Expr*, int32_t>> Lowering::bindArguments(const Expr& e, const Function& f) {
   std::vector<const Expr*> arguments;
   std::vector<Type> types;
   for (size_t i = 0; i < e.args.size(); ++i) {
@@ -51,30 +51,43 @@ int32_t Lowering::inlined(const Expr& e, const Function& f) {
       initialise(variable(p), from);
     }
   }
-  const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
-  if (!hasRoom()) return nothing();  // functions that call two of the next one double the code with each
-  // Only a return at the very end needs no label.
-  const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
-  const int returns = returnsIn(*f.body);
+  return after;
+}
+
+int32_t Lowering::inlineStraight(const Function& f) {
   int32_t result = -1;
-  if (returns == 0 || (returns == 1 && last->kind == StmtKind::Return)) {
-    functions_.push_back({});
-    for (const StmtPtr& s : f.body->body) {
-      if (s.get() == last && last->kind == StmtKind::Return)
-        result = last->exprs.empty() || !last->exprs[0] ? -1 : value(*last->exprs[0], f.result);
-      else
-        statement(*s);
-    }
-  } else {
-    if (f.result != Type{}) result = add({.shape = shapeOf(f.result), .origin = Origin::Variable});
-    if (result >= 0) initialise(result, shape(result) == Shape::Text ? text("") : number(0));
-    functions_.push_back({result, code_.labels++, f.result});
-    Block body = block([&] { statement(*f.body); });
-    Instruction& scope = emit(Op::Scope, {}, {});
-    scope.extra = functions_.back().label;
-    scope.blocks.push_back(std::move(body));
+  functions_.push_back({});
+  const Stmt* last = f.body->body.empty() ? nullptr : f.body->body.back().get();
+  for (const StmtPtr& s : f.body->body) {
+    if (s.get() == last && last->kind == StmtKind::Return)
+      result = last->exprs.empty() || !last->exprs[0] ? -1 : value(*last->exprs[0], f.result);
+    else
+      statement(*s);
   }
   functions_.pop_back();
+  return result;
+}
+
+int32_t Lowering::inlineWithReturns(const Function& f) {
+  int32_t result = -1;
+  if (f.result != Type{}) result = add({.shape = shapeOf(f.result), .origin = Origin::Variable});
+  if (result >= 0) initialise(result, shape(result) == Shape::Text ? text("") : number(0));
+  functions_.push_back({result, code_.labels++, f.result});
+  Block body = block([&] { statement(*f.body); });
+  Instruction& scope = emit(Op::Scope, {}, {});
+  scope.extra = functions_.back().label;
+  scope.blocks.push_back(std::move(body));
+  functions_.pop_back();
+  return result;
+}
+
+int32_t Lowering::inlined(const Expr& e, const Function& f) {
+  const auto after = bindArguments(e, f);
+  const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
+  if (!hasRoom()) return nothing();  // functions that call two of the next one double the code with each
+  const int returns = returnsIn(*f.body);
+  const bool straight = returns == 0 || (returns == 1 && f.body->body.back()->kind == StmtKind::Return);
+  const int32_t result = straight ? inlineStraight(f) : inlineWithReturns(f);
   for (const auto& [to, from] : after) store(*to, from);
   return result < 0 ? nothing() : result;
 }
@@ -91,66 +104,75 @@ std::vector<int32_t> Lowering::arguments(const Expr& e, const Builtin& b, size_t
 }
 
 int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
+  using L = Lowering;
+  static const std::map<Emit, int32_t (Lowering::*)(const Expr&, const Builtin&)> table = {
+      {Emit::Instruction, &L::instruction},
+      {Emit::Fold, &L::fold},
+      {Emit::Component, &L::component},
+      {Emit::SetComponent, &L::setComponent},
+      {Emit::Derivative, &L::derivative},
+      {Emit::Normal, &L::calculatedNormal},
+      {Emit::Spline, &L::spline},
+      {Emit::Transform, &L::transform},
+      {Emit::ColorTransform, &L::colorTransform},
+      {Emit::Texture, &L::texture},
+      {Emit::Environment, &L::environment},
+      {Emit::Shadow, &L::shadow},
+      {Emit::List, &L::withList},
+      {Emit::Traced, &L::withList},
+      {Emit::Ask, &L::ask},
+      {Emit::ShaderName, &L::shaderName},
+      {Emit::Print, &L::print},
+      {Emit::ArrayLength, &L::arrayLength},
+      {Emit::Plugin, &L::plugin}};
+  return (this->*table.at(b.emit))(e, b);
+}
+
+int32_t Lowering::instruction(const Expr& e, const Builtin& b) {
+  return compute(b.op, arguments(e, b, e.args.size()), shapeOf({b.result}));
+}
+
+int32_t Lowering::fold(const Expr& e, const Builtin& b) {
+  const std::vector<int32_t> in = arguments(e, b, e.args.size());
+  int32_t out = in[0];
+  for (size_t i = 1; i < in.size(); ++i) out = compute(b.op, {out, in[i]}, shapeOf({b.result}));
+  return out;
+}
+
+int32_t Lowering::component(const Expr& e, const Builtin& b) {
+  return compute(b.op, {value(*e.args[0]), number(b.number)});
+}
+
+int32_t Lowering::derivative(const Expr& e, const Builtin& b) {
   const Shape of = shapeOf({b.result});
-  switch (b.emit) {
-    case Emit::Instruction:
-      return compute(b.op, arguments(e, b, e.args.size()), of);
-    case Emit::Fold: {
-      const std::vector<int32_t> in = arguments(e, b, e.args.size());
-      int32_t out = in[0];
-      for (size_t i = 1; i < in.size(); ++i) out = compute(b.op, {out, in[i]}, of);
-      return out;
-    }
-    case Emit::Component:
-      return compute(b.op, {value(*e.args[0]), number(b.number)});
-    case Emit::SetComponent:
-      return setComponent(e, b);
-    case Emit::Derivative: {
-      const int32_t step = compute(b.op, arguments(e, b, 1), of);
-      const int32_t size = global(b.op == Op::StepU ? Global::du : Global::dv);
-      const int32_t moves = compute(Op::NotEqual, {size, number(0)});
-      return compute(Op::Select, {moves, compute(Op::Div, {step, size}, of), number(0)}, of);
-    }
-    case Emit::Normal:
-      return normalOf(value(*e.args[0]));
-    case Emit::Spline:
-      return spline(e, b);
-    case Emit::Transform:
-      return transform(e, b);
-    case Emit::ColorTransform: {
-      std::vector<int32_t> in = arguments(e, b, e.args.size());
-      if (in.size() == 2) in.insert(in.begin(), text("rgb"));
-      return compute(b.op, in);
-    }
-    case Emit::Texture:
-      return texture(e, b);
-    case Emit::Environment:
-      return environment(e, b);
-    case Emit::Shadow:
-      return shadow(e, b);
-    case Emit::List:
-    case Emit::Traced:
-      return withList(e, b);
-    case Emit::Ask:
-      return ask(e, b);
-    case Emit::ShaderName: {
-      if (e.args.empty()) return text(code_.name);
-      const int32_t of_ = value(*e.args[0]);
-      return compute(Op::ShaderName, {of_});
-    }
-    case Emit::Print: {
-      std::vector<int32_t> in = arguments(e, b, e.args.size());
-      for (size_t i = 0; i < in.size(); ++i) in[i] = widened(in[i], e.args[i]->type);
-      if (b.op != Op::Print) return compute(b.op, in);
-      emit(b.op, {}, in);
-      return number(0);
-    }
-    case Emit::ArrayLength:
-      return number(static_cast<float>(std::max(code_.registers[static_cast<size_t>(value(*e.args[0]))].length, 0)));
-    case Emit::Plugin:
-      return plugin(e, b);
-  }
+  const int32_t step = compute(b.op, arguments(e, b, 1), of);
+  const int32_t size = global(b.op == Op::StepU ? Global::du : Global::dv);
+  const int32_t moves = compute(Op::NotEqual, {size, number(0)});
+  return compute(Op::Select, {moves, compute(Op::Div, {step, size}, of), number(0)}, of);
+}
+
+int32_t Lowering::colorTransform(const Expr& e, const Builtin& b) {
+  std::vector<int32_t> in = arguments(e, b, e.args.size());
+  if (in.size() == 2) in.insert(in.begin(), text("rgb"));
+  return compute(b.op, in);
+}
+
+int32_t Lowering::shaderName(const Expr& e, const Builtin&) {
+  if (e.args.empty()) return text(code_.name);
+  const int32_t of = value(*e.args[0]);
+  return compute(Op::ShaderName, {of});
+}
+
+int32_t Lowering::print(const Expr& e, const Builtin& b) {
+  std::vector<int32_t> in = arguments(e, b, e.args.size());
+  for (size_t i = 0; i < in.size(); ++i) in[i] = widened(in[i], e.args[i]->type);
+  if (b.op != Op::Print) return compute(b.op, in);
+  emit(b.op, {}, in);
   return number(0);
+}
+
+int32_t Lowering::arrayLength(const Expr& e, const Builtin&) {
+  return number(static_cast<float>(std::max(code_.registers[static_cast<size_t>(value(*e.args[0]))].length, 0)));
 }
 
 int32_t Lowering::setComponent(const Expr& e, const Builtin& b) {
@@ -172,6 +194,8 @@ int32_t Lowering::plugin(const Expr& e, const Builtin& b) {
   for (const auto& [to, from] : after) store(*to, from);
   return b.result != Base::Void ? out[0] : number(0);
 }
+
+int32_t Lowering::calculatedNormal(const Expr& e, const Builtin&) { return normalOf(value(*e.args[0])); }
 
 // A surface's normal follows from steps, which the passes derive; for a displacement the host differences its grid.
 int32_t Lowering::normalOf(int32_t position) {

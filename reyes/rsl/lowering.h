@@ -92,10 +92,24 @@ class Lowering {
   // --- lower_calls.cpp
   int32_t call(const Expr& e);
   int32_t inlined(const Expr& e, const Function& f);
+  /// Lets the parameters of a function stand for the arguments of a call. Returns what must be stored after it.
+  std::vector<std::pair<const Expr*, int32_t>> bindArguments(const Expr& e, const Function& f);
+  // Both return the register of the function's value, or -1 if it has none.
+  int32_t inlineStraight(const Function& f);  ///< Pre: it returns at its very end alone, so that no label is needed.
+  int32_t inlineWithReturns(const Function& f);
   int32_t builtin(const Expr& e, const Builtin& b);
   std::vector<int32_t> arguments(const Expr& e, const Builtin& b, size_t count);
   std::vector<Setting> settings(const std::vector<ExprPtr>& list, size_t from, std::string_view function,
                                 std::vector<std::pair<const Expr*, int32_t>>& after);
+  int32_t instruction(const Expr& e, const Builtin& b);
+  int32_t fold(const Expr& e, const Builtin& b);
+  int32_t component(const Expr& e, const Builtin& b);
+  int32_t derivative(const Expr& e, const Builtin& b);
+  int32_t calculatedNormal(const Expr& e, const Builtin& b);
+  int32_t colorTransform(const Expr& e, const Builtin& b);
+  int32_t shaderName(const Expr& e, const Builtin& b);
+  int32_t print(const Expr& e, const Builtin& b);
+  int32_t arrayLength(const Expr& e, const Builtin& b);
   int32_t setComponent(const Expr& e, const Builtin& b);
   int32_t spline(const Expr& e, const Builtin& b);
   int32_t transform(const Expr& e, const Builtin& b);

@@ -93,6 +93,11 @@ class Rule {
     return each(Op::Select, {isDivided, div(sub(turned, mul(y(), dot(d(1), column))), divisor), turned});
   }
 
+  int32_t changeOfDirection() {
+    const int32_t length = compute(Op::Length, {in(0)}, Shape::Number);
+    return wherePositive(length, div(sub(d(0), mul(dot(y(), d(0)), y())), length));
+  }
+
   /// Returns the registers of the change; empty if there is no short rule.
   std::vector<int32_t> change() {
     switch (c_.i.op) {
@@ -128,10 +133,8 @@ class Rule {
         return {add(cross(in(0), d(1)), cross(d(0), in(1)))};
       case Op::Length:
         return {wherePositive(y(), div(dot(in(0), d(0)), y()))};
-      case Op::Normalize: {
-        const int32_t length = compute(Op::Length, {in(0)}, Shape::Number);
-        return {wherePositive(length, div(sub(d(0), mul(dot(y(), d(0)), y())), length))};
-      }
+      case Op::Normalize:
+        return {changeOfDirection()};
       case Op::Faceforward:  // plus or minus N
         return {none(d(0)) ? c_.zero : compute(Op::Faceforward, {d(0), in(1), in(2)}, Shape::Triple)};
       case Op::TransformPoint:
@@ -152,7 +155,6 @@ class Rule {
   /// Returns the rules for functions of numbers, which hold for each component.
   std::vector<int32_t> number() {
     const auto square = [&](int32_t r) { return each(Op::Mul, {r, r}); };
-    const bool isNumber = shape(y()) == Shape::Number;
     const auto one = [&] { return constant(1); };
     switch (c_.i.op) {
       case Op::Abs:
@@ -175,28 +177,45 @@ class Rule {
         return {div(d(0), add(one(), square(in(0))))};
       case Op::Atan2:
         return {div(sub(mul(in(1), d(0)), mul(in(0), d(1))), add(square(in(0)), square(in(1))))};
-      case Op::Pow:  // y (b dx / x + log(x) db), where x > 0
-        if (!isNumber) return {};
-        return {wherePositive(in(0), mul(y(), add(div(mul(in(1), d(0)), in(0)),
-                                                  none(d(1)) ? c_.zero : mul(each(Op::Log, {in(0)}), d(1)))))};
       case Op::Mod:
-        if (!none(d(1))) return {};
-        return {d(0)};
+        return none(d(1)) ? std::vector{d(0)} : std::vector<int32_t>{};
+      default:
+        return shape(y()) == Shape::Number ? numberAlone() : std::vector<int32_t>{};
+    }
+  }
+
+  /// Returns the rules that hold for numbers, but not for the components of triples.
+  std::vector<int32_t> numberAlone() {
+    switch (c_.i.op) {
+      case Op::Pow:
+        return {changeOfPower()};
       case Op::Min:
-      case Op::Max: {
-        if (!isNumber) return {};
-        const bool less = c_.i.op == Op::Min;
-        return {each(Op::Select, {compute(Op::Less, {in(0), in(1)}, Shape::Number), d(less ? 0 : 1), d(less ? 1 : 0)})};
-      }
-      case Op::Clamp: {
-        if (!isNumber) return {};
-        const int32_t below = compute(Op::Less, {in(0), in(1)}, Shape::Number);
-        const int32_t above = compute(Op::Less, {in(2), in(0)}, Shape::Number);
-        return {each(Op::Select, {below, d(1), each(Op::Select, {above, d(2), d(0)})})};
-      }
+        return {changeOfChosen(0, 1)};
+      case Op::Max:
+        return {changeOfChosen(1, 0)};
+      case Op::Clamp:
+        return {changeOfClamped()};
       default:
         return {};
     }
+  }
+
+  /// y (b dx / x + log(x) db), where x > 0
+  int32_t changeOfPower() {
+    return wherePositive(
+        in(0), mul(y(), add(div(mul(in(1), d(0)), in(0)), none(d(1)) ? c_.zero : mul(each(Op::Log, {in(0)}), d(1)))));
+  }
+
+  /// Returns the change of operand `then` where the first operand is less than the second one, else that of
+  /// `otherwise`.
+  int32_t changeOfChosen(size_t then, size_t otherwise) {
+    return each(Op::Select, {compute(Op::Less, {in(0), in(1)}, Shape::Number), d(then), d(otherwise)});
+  }
+
+  int32_t changeOfClamped() {
+    const int32_t below = compute(Op::Less, {in(0), in(1)}, Shape::Number);
+    const int32_t above = compute(Op::Less, {in(2), in(0)}, Shape::Number);
+    return each(Op::Select, {below, d(1), each(Op::Select, {above, d(2), d(0)})});
   }
 
   RuleContext& c_;
