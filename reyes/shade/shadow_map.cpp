@@ -28,44 +28,48 @@ vec2 project(const mat4& ndcFromWorld, const vec3& p) {
 std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::string& error) {
   const auto in = openPicture(path, error);
   if (!in) return nullptr;
-  const PictureShape& shape = in->shape();
-  auto map = std::make_unique<ShadowMap>();
-  const auto channel = [&](const char* name) { return channelOf(shape, name); };
   const std::optional<DepthCamera> camera = depthCameraOf(*in);
   if (!camera) {
     error = "it is no shadow map: depth or the matrices of its camera are missing";
     return nullptr;
   }
-  map->cameraFromWorld_ = camera->cameraFromWorld;
-  map->ndcFromWorld_ = camera->ndcFromWorld;
-  map->cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(map->cameraFromWorld_)));
-  map->width_ = shape.fullWidth;
-  map->height_ = shape.fullHeight;
-  map->x0_ = shape.x;
-  map->y0_ = shape.y;
-  map->columns_ = shape.width;
-  map->rows_ = shape.height;
-  const mat4 ndcFromCamera = map->ndcFromWorld_ * glm::inverse(map->cameraFromWorld_);
-  map->perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
-  if (!in->deep()) {
-    const int z = camera->depth;
-    map->depth_.resize(static_cast<size_t>(shape.width) * static_cast<size_t>(shape.height));
-    if (!in->read(z, z + 1, map->depth_.data())) {
-      error = in->error();
-      return nullptr;
-    }
-    return map;
-  }
-  in->pair(kSampleRegion, &map->spread_.x);
+  auto map = std::make_unique<ShadowMap>();
+  map->readCamera(in->shape(), *camera);
+  const bool good = in->deep() ? map->readDeep(*in, camera->depth) : map->readFlat(*in, camera->depth);
+  if (good) return map;
+  error = in->error();
+  return nullptr;
+}
+
+void ShadowMap::readCamera(const PictureShape& shape, const DepthCamera& camera) {
+  cameraFromWorld_ = camera.cameraFromWorld;
+  ndcFromWorld_ = camera.ndcFromWorld;
+  cameraNormalFromWorld_ = glm::transpose(glm::inverse(mat3(cameraFromWorld_)));
+  width_ = shape.fullWidth;
+  height_ = shape.fullHeight;
+  x0_ = shape.x;
+  y0_ = shape.y;
+  columns_ = shape.width;
+  rows_ = shape.height;
+  const mat4 ndcFromCamera = ndcFromWorld_ * glm::inverse(cameraFromWorld_);
+  perspective_ = std::abs(ndcFromCamera[2][3]) > 1e-6f * std::abs(ndcFromCamera[3][3]);
+}
+
+bool ShadowMap::readFlat(PictureReader& in, int z) {
+  depth_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  return in.read(z, z + 1, depth_.data());
+}
+
+bool ShadowMap::readDeep(PictureReader& in, int z) {
+  in.pair(kSampleRegion, &spread_.x);
   std::vector<uint32_t> counts;
   std::vector<float> values;
-  if (!in->readDeep(counts, values)) {
-    error = in->error();
-    return nullptr;
-  }
-  const int z = camera->depth, back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
+  if (!in.readDeep(counts, values)) return false;
+  const PictureShape& shape = in.shape();
+  const auto channel = [&](const char* name) { return channelOf(shape, name); };
+  const int back = channel("ZBack") < 0 ? z : channel("ZBack"), alpha = channel("A");
   const int opacity[3] = {channel("AR"), channel("AG"), channel("AB")};
-  map->first_.push_back(0);
+  first_.push_back(0);
   const float* channels = values.data();
   for (const uint32_t count : counts) {
     vec3 clear(1.0f);
@@ -76,11 +80,11 @@ std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::s
         if (c >= 0) sample.after[k] *= 1 - channels[c];
       }
       clear = sample.after;
-      map->samples_.push_back(sample);
+      samples_.push_back(sample);
     }
-    map->first_.push_back(map->samples_.size());
+    first_.push_back(samples_.size());
   }
-  return map;
+  return true;
 }
 
 vec3 ShadowMap::blocked(int x, int y, float z) const {
@@ -119,17 +123,17 @@ struct ShadowMap::View {
   }
 };
 
-vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) const {
+std::optional<ShadowMap::View> ShadowMap::viewOf(const ShadowReceiver& r, float width) const {
   const vec4 h = ndcFromWorld_ * vec4(r.P, 1);
   const auto texelOf = [this](const vec2& ndc) {
     return vec2(0.5f * (ndc.x + 1) * static_cast<float>(width_), 0.5f * (1 - ndc.y) * static_cast<float>(height_));
   };
   View view{transformPoint(cameraFromWorld_, r.P), cameraNormalFromWorld_ * r.N, {}, {}, {}, 0, {}, {}, perspective_};
-  if (!(h.w > 0) || view.P.z <= 0 || std::abs(h.x) > h.w || std::abs(h.y) > h.w) return vec3(0.0f);
+  if (!(h.w > 0) || view.P.z <= 0 || std::abs(h.x) > h.w || std::abs(h.y) > h.w) return {};
   view.at = texelOf(vec2(h) / h.w);
   const auto edge = [&](const vec3& e) {
     const vec2 moved = texelOf(project(ndcFromWorld_, r.P + e)) - view.at;
-    return std::isfinite(moved.x + moved.y) ? lookup.width * moved : vec2(0.0f);
+    return std::isfinite(moved.x + moved.y) ? width * moved : vec2(0.0f);
   };
   view.u = edge(r.edgeU);
   view.v = edge(r.edgeV);
@@ -140,7 +144,13 @@ vec3 ShadowMap::shadow(const ShadowReceiver& r, const ShadowLookup& lookup) cons
   view.center = texelOfCamera({0, 0, 1});
   view.scale = texelOfCamera({1, 1, 1}) - view.center;
   view.texel = (perspective_ ? view.P.z : 1) / std::min(std::abs(view.scale.x), std::abs(view.scale.y));
+  return view;
+}
 
+vec3 ShadowMap::shadow(const ShadowReceiver& receiver, const ShadowLookup& lookup) const {
+  const std::optional<View> found = viewOf(receiver, lookup.width);
+  if (!found) return vec3(0.0f);
+  const View& view = *found;
   // The square is at least a texel wide, so that texels do not show.
   const vec2 square = vec2(1.0f) + lookup.blur * vec2(width_, height_);
   const float steepest = 8;  // beyond that slope the plane says nothing about its surroundings

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@
 #include "reyes/base/math.h"
 
 namespace tomales {
+
+struct DepthCamera;
+struct PictureShape;
+class PictureReader;
 
 /// A point of a plane, in world space, that may lie in shadow.
 struct ShadowReceiver {
@@ -43,6 +48,12 @@ class ShadowMap {
     vec3 before, after;  ///< The share of light that arrives at z, and at zBack.
   };
   struct View;
+  void readCamera(const PictureShape& shape, const DepthCamera& camera);
+  // Both read the channel `z` of a picture. They return false if it cannot be read; its error() then says why.
+  bool readFlat(PictureReader& in, int z);
+  bool readDeep(PictureReader& in, int z);
+  /// Finds the receiver in the map, with its edges multiplied by `width`. Returns nothing if it is outside of the map.
+  std::optional<View> viewOf(const ShadowReceiver& receiver, float width) const;
   vec3 blocked(int x, int y, float z) const;
 
   int width_ = 0, height_ = 0;                    ///< The size of the frame,
