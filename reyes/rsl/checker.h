@@ -1,4 +1,4 @@
-// Private to the checker (check.cpp, check_calls.cpp, check_expressions.cpp).
+// Private to the checker (check*.cpp).
 #pragma once
 #include <map>
 #include <set>
@@ -28,13 +28,15 @@ class Checker {
   void forLoop(Stmt& s);
   void condition(Expr& e);
   void declaration(Variable& v);
+  void jump(const Stmt& s);
+  void returned(Stmt& s);
+  void refuseRecursion();
+
+  // --- check_light.cpp: the statements about light and rays
   void illuminance(Stmt& s);
   void illuminate(Stmt& s);
   void solar(Stmt& s);
   void gather(Stmt& s);
-  void jump(const Stmt& s);
-  void returned(Stmt& s);
-  void refuseRecursion();
 
   // --- check_expressions.cpp
   /// Returns the type that the expression has on its own.

@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 
-/// Returns the operands with which an instruction's result changes; empty if it does not change.
+/// Returns the operands with which an instruction's result changes; empty if it does not change. (differentiated.cpp)
 std::vector<size_t> differentiated(const Instruction& i);
 
 struct RuleContext {
