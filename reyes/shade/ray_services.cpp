@@ -14,7 +14,7 @@
 namespace tomales {
 namespace {
 
-int floatsOf(const TmChannel& c) { return c.value.y ? 3 : 1; }
+int componentsOf(const TmChannel& c) { return c.value.y ? 3 : 1; }
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void setRayOutputs(const Primary& primary, const TmChannel* outputs, int32_t out
     const float* const from[3] = {it != known.end() ? it->value.x : nullptr, it != known.end() ? it->value.y : nullptr,
                                   it != known.end() ? it->value.z : nullptr};
     float* const to[3] = {o.value.x, o.value.y, o.value.z};
-    for (int k = 0; k < floatsOf(o); ++k) {
+    for (int k = 0; k < componentsOf(o); ++k) {
       if (from[k]) forActive(primary.grid(), [&](int i) { to[k][i] = from[k][i]; });
       primary.spread(to[k]);
     }
@@ -98,7 +98,7 @@ struct Gathered {
         result.outputs.push_back({"surface:Oi", 3, {opacity.x, opacity.y, opacity.z}});
       }
       if (!name.starts_with("ray:") && !name.starts_with("volume:") && name != "effectivedistance")
-        result.outputs.push_back({o.name, floatsOf(o), {o.value.x, o.value.y, o.value.z}});
+        result.outputs.push_back({o.name, componentsOf(o), {o.value.x, o.value.y, o.value.z}});
     }
   }
 
