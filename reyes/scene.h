@@ -17,6 +17,12 @@ namespace tomales {
 /// (docs/decisions/0003).
 constexpr float borderReach_px(float displacementBound) { return displacementBound > 0 ? 4.0f : 0.5f; }
 
+/// The shapes of an object around a time: `before`, or the point `t` of the way from it to `after` unless that is null.
+struct ShapesAround {
+  const Prim *before, *after;
+  float t;
+};
+
 /// One primitive request placed in the world. Deforming geometry has a Prim for each of `shapeTimes`, alike in
 /// topology; all motion in between is linear.
 struct Object {
@@ -41,6 +47,14 @@ struct Object {
   uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are opened.
 
   const Prim& shape() const { return *shapes.front(); }
+  /// Before the first of `shapeTimes` and after the last, the shape stays as it is then.
+  ShapesAround shapesAround(float time) const {
+    size_t k = 0;
+    while (k + 1 < shapes.size() && shapeTimes[k + 1] <= time) ++k;
+    const bool between = k + 1 < shapes.size() && time > shapeTimes[k];
+    return {shapes[k].get(), between ? shapes[k + 1].get() : nullptr,
+            between ? (time - shapeTimes[k]) / (shapeTimes[k + 1] - shapeTimes[k]) : 0.0f};
+  }
 };
 
 /// Objects whose points may be shaded together: they have the same attributes, transformation, motion and primvar

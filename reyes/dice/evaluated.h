@@ -54,18 +54,15 @@ class Evaluated {
   float* data_;
 };
 
-/// Evaluates a deforming object at `time`: linearly between the two shapes around it. evaluate(prim, out) fills n
-/// points of `out`.
+/// Evaluates a deforming object at `time`. evaluate(prim, out) fills n points of `out`.
 template <class Evaluate>
 void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evaluate& evaluate) {
-  size_t k = 0;
-  while (k + 1 < o.shapeTimes.size() && o.shapeTimes[k + 1] <= time) ++k;
-  evaluate(*o.shapes[k], out);
-  if (k + 1 >= o.shapes.size() || time <= o.shapeTimes[k]) return;
-  const float t = (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]);
+  const ShapesAround shapes = o.shapesAround(time);
+  evaluate(*shapes.before, out);
+  if (!shapes.after) return;
   Evaluated next(n);
-  evaluate(*o.shapes[k + 1], next);
-  out.blend(next, t);
+  evaluate(*shapes.after, next);
+  out.blend(next, shapes.t);
 }
 
 /// Returns the matrix that transforms normals: the cofactors of m, negated if the object flips its normals. Cofactors

@@ -28,9 +28,7 @@ float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const
   float length = 0;
   vec2 last(0);
   for (size_t k = 0; k < o.keyTimes.size(); ++k) {
-    size_t shape = 0;
-    while (shape + 1 < o.shapes.size() && o.shapeTimes[shape + 1] <= o.keyTimes[k]) ++shape;
-    const vec3 middle = o.shapes[shape]->bound(patch, rect).center();
+    const vec3 middle = o.shapesAround(o.keyTimes[k]).before->bound(patch, rect).center();
     const vec2 at = camera.raster(transformPoint(o.cameraFromObject.at(o.keyTimes[k]), middle));
     if (k > 0) length += glm::length(at - last);
     last = at;

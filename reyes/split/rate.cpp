@@ -15,21 +15,12 @@ constexpr int kFlatProbes = 1, kCurvedProbes = 4;
 /// area.
 constexpr float kTriangle = 0.70710678f;
 
-/// An object at a time: its shape, interpolated between `before` and `after` unless `after` is null, and its
-/// transformation.
+/// An object at a time.
 struct Pose {
-  const Prim *before, *after;
-  float t;
+  ShapesAround shapes;
   mat4 cameraFromObject;
 };
-Pose poseAt(const Object& o, float time) {
-  size_t k = 0;
-  while (k + 1 < o.shapes.size() && o.shapeTimes[k + 1] <= time) ++k;
-  const bool between = k + 1 < o.shapes.size() && time > o.shapeTimes[k];
-  return {o.shapes[k].get(), between ? o.shapes[k + 1].get() : nullptr,
-          between ? (time - o.shapeTimes[k]) / (o.shapeTimes[k + 1] - o.shapeTimes[k]) : 0.0f,
-          o.cameraFromObject.at(time)};
-}
+Pose poseAt(const Object& o, float time) { return {o.shapesAround(time), o.cameraFromObject.at(time)}; }
 
 /// patchAt(i) returns one of up to kPatches patches; put(i, size) receives its size.
 template <int kProbes, int kPatches, class PatchAt, class Put>
@@ -49,11 +40,11 @@ void measureSome(const Object& o, const Pose& pose, const Camera& camera, int co
                    {to[0], to[1], to[2], to[3], to[4], to[5], to[6], to[7], to[8], to[9], to[10], to[11]});
   };
   for (int i = 0; i < kPatches; ++i) {
-    if (i < count) evaluate(*pose.before, i, data);
-    if (i < count && pose.after) {
-      evaluate(*pose.after, i, next);
+    if (i < count) evaluate(*pose.shapes.before, i, data);
+    if (i < count && pose.shapes.after) {
+      evaluate(*pose.shapes.after, i, next);
       for (int axis = 0; axis < 3; ++axis)
-        for (int k = 0; k < L::kCount; ++k) data[axis][k] = lerp(data[axis][k], next[axis][k], pose.t);
+        for (int k = 0; k < L::kCount; ++k) data[axis][k] = lerp(data[axis][k], next[axis][k], pose.shapes.t);
     }
     for (int k = 0; k < L::kCount; ++k) at.x[k][i] = data[0][k], at.y[k][i] = data[1][k], at.z[k][i] = data[2][k];
   }
