@@ -94,13 +94,16 @@ struct DeepFrame {
   size_t tileCount() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
   PixelRect rectOf(size_t tile) const;
   int rowOf(int y) const { return (y - padded.y0) / bucketHeight; }
+  /// Returns the tile of a pixel of `padded`.
+  size_t tileOf(int x, int y) const { return static_cast<size_t>(rowOf(y) * columns + (x - padded.x0) / bucketWidth); }
   /// Keeps rows [first, last) of buckets in memory; tiles that were in memory stay, others are empty.
   void hold(int first, int last);
   void holdAll() { hold(0, rows); }
-  DeepTile& tile(size_t index) { return tiles[index - static_cast<size_t>(firstRow) * static_cast<size_t>(columns)]; }
-  const DeepTile& tileAt(int x, int y) const {
-    return tiles[static_cast<size_t>((rowOf(y) - firstRow) * columns + (x - padded.x0) / bucketWidth)];
-  }
+  DeepTile& tile(size_t index) { return tiles[index - firstHeld()]; }
+  const DeepTile& tileAt(int x, int y) const { return tiles[tileOf(x, y) - firstHeld()]; }
+
+ private:
+  size_t firstHeld() const { return static_cast<size_t>(firstRow) * static_cast<size_t>(columns); }
 };
 
 /// Reads the tiles of a frame, in memory or in a file. It may be called from any thread, and returns null for a tile

@@ -113,6 +113,8 @@ Image filterFrame(const DeepFrame& frame, const Options& options, const SampleOf
 
 /// Returns the number of pixels beyond the crop window that some channel's filter reaches.
 vec2 filterReach(const Options& options);
+/// Returns the pixels whose samples count in some pixel of `rect`: it grows by filterReach() on each side.
+PixelRect grownByFilter(const PixelRect& rect, const Options& options);
 /// Reports displays, channels and filters that are not understood. Returns false if some filter is unknown.
 bool checkDisplays(const Options& options, Log& log);
 

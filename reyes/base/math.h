@@ -97,6 +97,8 @@ struct PixelRect {
   int width() const { return std::max(0, x1 - x0); }
   int height() const { return std::max(0, y1 - y0); }
   bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+  /// Tells whether some pixel is in both. Pre: neither is empty.
+  bool overlaps(const PixelRect& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
 };
 
 }  // namespace tomales

@@ -53,14 +53,12 @@ void limitBuckets(DeepFrame& frame, double patchesPerPixel) {
 
 DeepFrame layOutFrame(const Scene& scene) {
   const Options& o = scene.options;
-  const vec2 reach = filterReach(o);
-  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
   DeepFrame frame;
   frame.crop = Camera(o).crop();
   // Samples beyond the crop window are computed too, so that crops join into the full frame (RISpec 3.2 section 4.1.1).
-  frame.padded = {frame.crop.x0 - reachX, frame.crop.y0 - reachY, frame.crop.x1 + reachX, frame.crop.y1 + reachY};
-  frame.bucketWidth = std::max(1, o.bucketWidth);
-  frame.bucketHeight = std::max(1, o.bucketHeight);
+  frame.padded = grownByFilter(frame.crop, o);
+  frame.bucketWidth = o.bucketWidth;
+  frame.bucketHeight = o.bucketHeight;
   frame.samplesPerPixel = samplePattern(o, 0).count();
   limitBuckets(frame, patchesPerPixel(scene));
   frame.columns = (frame.padded.width() + frame.bucketWidth - 1) / frame.bucketWidth;

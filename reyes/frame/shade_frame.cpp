@@ -75,15 +75,10 @@ bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const 
 }
 
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options) {
-  const vec2 reach = filterReach(options);
-  const int reachX = static_cast<int>(reach.x), reachY = static_cast<int>(reach.y);
-  const PixelRect& c = frame.crop;
-  const PixelRect seen{c.x0 - reachX, c.y0 - reachY, c.x1 + reachX, c.y1 + reachY};
+  const PixelRect seen = grownByFilter(frame.crop, options);
   std::vector<uint32_t> out;
-  for (const uint32_t i : bucketOrder(options.bucketOrder, frame.columns, frame.rows)) {
-    const PixelRect r = frame.rectOf(i);
-    if (r.x0 < seen.x1 && r.x1 > seen.x0 && r.y0 < seen.y1 && r.y1 > seen.y0) out.push_back(i);
-  }
+  for (const uint32_t i : bucketOrder(options.bucketOrder, frame.columns, frame.rows))
+    if (frame.rectOf(i).overlaps(seen)) out.push_back(i);
   return out;
 }
 

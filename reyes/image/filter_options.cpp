@@ -14,6 +14,12 @@ vec2 filterReach(const Options& options) {
   return reach;
 }
 
+PixelRect grownByFilter(const PixelRect& rect, const Options& options) {
+  const vec2 reach = filterReach(options);
+  const int x = static_cast<int>(reach.x), y = static_cast<int>(reach.y);
+  return {rect.x0 - x, rect.y0 - y, rect.x1 + x, rect.y1 + y};
+}
+
 bool checkDisplays(const Options& options, Log& log) {
   const FrameOutput output = outputOf(options, &log);
   bool good = true;

@@ -148,11 +148,10 @@ std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileRea
   std::vector<AuditPixel> out;
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const PixelRect r = layout.rectOf(t), &crop = layout.crop;
-    const bool seen = r.x0 < crop.x1 && r.x1 > crop.x0 && r.y0 < crop.y1 && r.y1 > crop.y0;
+    const bool seen = layout.rectOf(t).overlaps(layout.crop);
     const auto tile = seen && !cancelled ? tiles(t) : nullptr;
     if (!tile) return;
-    std::vector<AuditPixel> here = pixelsOfTile(*tile, crop, count, seed);
+    std::vector<AuditPixel> here = pixelsOfTile(*tile, layout.crop, count, seed);
     const std::lock_guard lock(merging);
     std::move(here.begin(), here.end(), std::back_inserter(out));
     keepFirst(out, count);

@@ -119,8 +119,7 @@ void SmudgeAudit::copyPixelsOf(Blocks& blocks) {
   for (size_t b = 0; b < blocks.corners.size(); ++b)
     for (int cell = 0; cell < kPixelsOfBlock; ++cell) {
       const ivec2 at = blocks.pixelOf(b, cell, settings_.seed);
-      const size_t t =
-          static_cast<size_t>(layout_.rowOf(at.y) * layout_.columns + (at.x - layout_.padded.x0) / layout_.bucketWidth);
+      const size_t t = layout_.tileOf(at.x, at.y);
       const int half = blocks.isWhole() ? kBothHalves : halfOfCell(cell);
       auto part = std::find_if(byTile[t].begin(), byTile[t].end(),
                                [&](const Part& p) { return p.block == b && p.half == half; });

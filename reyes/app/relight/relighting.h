@@ -137,7 +137,6 @@ class Relighting {
   std::shared_ptr<const DeepTile> outlineOf(size_t bucket, const DeepTile& tile);
   bool isNeededBesides(const Layer& layer, size_t bucket, size_t part) const;
   ShownTiles plainTiles();
-  size_t bucketAt(int x, int y) const;  ///< Returns the bucket of a raster pixel.
   size_t placeOf(int x, int y) const;
 
   RenderSettings settings_;

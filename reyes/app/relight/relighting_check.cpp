@@ -37,7 +37,7 @@ void Relighting::checkLinearity(const Step& step) {
   std::map<std::string, int> off;
   std::map<size_t, std::shared_ptr<const DeepTile>> seen;  // of the part
   const auto nameAt = [&](int x, int y) -> std::string {
-    const size_t bucket = bucketAt(x, y);
+    const size_t bucket = files_->dfb().shot().frame.tileOf(x, y);
     const auto [tile, isNew] = seen.try_emplace(bucket);
     if (isNew) tile->second = tiles_->read(bucket);
     const std::optional<int> group = tile->second ? groupAt(*tile->second, x, y) : std::nullopt;

@@ -140,12 +140,6 @@ Json Relighting::status() const {
       {"bytes", layers_->bytes()}};
 }
 
-size_t Relighting::bucketAt(int x, int y) const {
-  const auto shot = files();
-  const DeepFrame& frame = shot->dfb().shot().frame;
-  return static_cast<size_t>(frame.rowOf(y) * frame.columns + (x - frame.padded.x0) / frame.bucketWidth);
-}
-
 std::optional<int> groupAt(const DeepTile& tile, int x, int y) {
   const DeepPixel& pixel = tile.pixel(x, y);
   if (pixel.count == 0) return std::nullopt;
@@ -158,7 +152,7 @@ Json Relighting::objectAt(int x, int y) const {
   if (!window_.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
   const auto shot = files();
   std::string error;
-  const auto tile = shot->dfb().tile(bucketAt(atX, atY), error);
+  const auto tile = shot->dfb().tile(shot->dfb().shot().frame.tileOf(atX, atY), error);
   const std::optional<int> group = tile ? groupAt(*tile, atX, atY) : std::nullopt;
   if (!group) return Json::object();
   const Attributes& a = *shot->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;

@@ -11,10 +11,6 @@ int64_t squaredDistance(const PixelRect& part, int x, int y) {
   return dx * dx + dy * dy;
 }
 
-bool overlap(const PixelRect& a, const PixelRect& b) {
-  return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
-}
-
 }  // namespace
 
 // Returns the old part that is nearest to the pointer. Of several layers there it takes the earliest, because the light
@@ -24,7 +20,7 @@ std::optional<Relighting::Step> Relighting::nextPart(size_t from, size_t to) con
   int64_t least = std::numeric_limits<int64_t>::max();
   for (size_t layer = from; layer < to; ++layer)
     for (size_t part = 0; part < parts_.size(); ++part) {
-      if (!list_[layer].parts.isOld(part) || (only_ && !overlap(*only_, parts_[part]))) continue;
+      if (!list_[layer].parts.isOld(part) || (only_ && !only_->overlaps(parts_[part]))) continue;
       const int64_t distance = squaredDistance(parts_[part], pointerX_, pointerY_);
       if (distance >= least) continue;
       least = distance;
