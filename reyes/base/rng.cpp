@@ -74,19 +74,18 @@ std::vector<int> permutation(int count, uint32_t seed) {
   return p;
 }
 
+vec2 concentricDisk(const vec2& square) {
+  const vec2 p = 2.0f * square - 1.0f;
+  if (p == vec2(0)) return p;
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const float r = wide ? p.x : p.y;
+  const float angle = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
+  return r * vec2(std::cos(angle), std::sin(angle));
+}
+
 vec3 cosineHemisphere(vec2 xi) {
-  const vec2 o = 2.0f * xi - vec2(1.0f);
-  if (o.x == 0.0f && o.y == 0.0f) return {0.0f, 0.0f, 1.0f};
-  float r, phi;
-  if (std::abs(o.x) > std::abs(o.y)) {
-    r = o.x;
-    phi = (kPi / 4) * (o.y / o.x);
-  } else {
-    r = o.y;
-    phi = kPi / 2 - (kPi / 4) * (o.x / o.y);
-  }
-  const float x = r * std::cos(phi), y = r * std::sin(phi);
-  return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
+  const vec2 p = concentricDisk(xi);
+  return {p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - p.x * p.x - p.y * p.y))};
 }
 
 }  // namespace tomales

@@ -53,7 +53,11 @@ void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std
 /// Returns a random order of 0 .. count-1.
 std::vector<int> permutation(int count, uint32_t seed);
 
-/// Returns a direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentric disk).
+/// Maps the unit square to the unit disk. Squares around its middle become circles, so areas stay in proportion and
+/// strata keep about their shapes (Shirley and Chiu 1997, "A low distortion map between disk and square").
+vec2 concentricDisk(const vec2& square);
+
+/// Returns a direction of the hemisphere around +z with density cos(theta)/pi (Malley's method, concentricDisk()).
 vec3 cosineHemisphere(vec2 xi);
 
 }  // namespace tomales

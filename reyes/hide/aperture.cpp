@@ -1,18 +1,8 @@
 #include "reyes/hide/aperture.h"
 
+#include "reyes/base/rng.h"
+
 namespace tomales {
-namespace {
-
-vec2 concentric(const vec2& square) {
-  const vec2 p = 2.0f * square - 1.0f;
-  if (p == vec2(0)) return p;
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const float r = wide ? p.x : p.y;
-  const float angle = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
-  return r * vec2(std::cos(angle), std::sin(angle));
-}
-
-}  // namespace
 
 ApertureShape::ApertureShape(const Aperture& a)
     : disk_(a.sides < 3),
@@ -28,14 +18,11 @@ ApertureShape::ApertureShape(const Aperture& a)
   for (float& area : areas_) area /= areas_.back();
 }
 
-/// Returns the distance of the rim at the share `along` of a side, from one corner to the next.
 float ApertureShape::rim(float along) const {
   const float half = kPi / sides_, chord = std::cos(half) / std::cos((2 * along - 1) * half);
   return chord + (1 - chord) * roundness_;
 }
 
-/// Returns the share of the way to the rim with density r (1 + density (2 r - 1)): xi is the integral of that density
-/// up to the result.
 float ApertureShape::radius(float xi) const {
   float r = std::sqrt(xi);
   if (density_ == 0) return r;
@@ -51,7 +38,7 @@ float ApertureShape::radius(float xi) const {
 
 vec2 ApertureShape::operator()(const vec2& square) const {
   if (disk_) {
-    const vec2 p = concentric(square);
+    const vec2 p = concentricDisk(square);
     const float r = glm::length(p);
     return r > 0 && density_ != 0 ? p * (radius(r * r) / r) : p;
   }
