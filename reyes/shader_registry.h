@@ -12,6 +12,10 @@ namespace tomales {
 
 /// Returns "surface" ... "imager".
 const char* kindName(TmKind kind);
+/// Returns "float" ... "matrix" for a TmType; "unknown type" for another number.
+const char* typeName(int32_t type);
+/// Returns the floats in one value of a TmType; 0 for strings.
+int floatsOf(int32_t type);
 /// Returns the name of a TmRole; null if no role has this number.
 const char* roleName(int32_t role);
 /// Returns the role that a shader's parameter declares, or that of the standard parameter of its name and type.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "reyes/shader_registry.h"
+
 namespace tomales {
 namespace {
 
@@ -58,8 +60,7 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
   const int32_t type = TM_TYPE_OF(declared.type);
   std::vector<float> numbers = numbersOf(given);
   if (!agrees(type, given) && (numbers.empty() || !converts(given, numbers.size(), width, out.floats.size()))) {
-    out.remark =
-        fmt::format("is a {} and was given a {}; its default is used", nameOf(valueTypeOf(type)), nameOf(given.type));
+    out.remark = fmt::format("is a {} and was given a {}; its default is used", typeName(type), nameOf(given.type));
     return;
   }
   const size_t count = numbers.size();
@@ -70,8 +71,7 @@ void takeNumbers(const TmParamDecl& declared, const Param& given, size_t width, 
     out.remark = fmt::format("takes {} numbers and was given {}{}", out.floats.size(), count,
                              taken == 0 ? "; its default is used" : "");
   else if (!agrees(type, given))
-    out.remark =
-        fmt::format("is a {} and was given a {}, which is converted", nameOf(valueTypeOf(type)), nameOf(given.type));
+    out.remark = fmt::format("is a {} and was given a {}, which is converted", typeName(type), nameOf(given.type));
 }
 
 }  // namespace
@@ -83,6 +83,10 @@ ValueType valueTypeOf(int32_t type) {
 TmType tmTypeOf(ValueType type) {
   const auto it = std::find(std::begin(kValueTypes), std::end(kValueTypes), type);
   return it == std::end(kValueTypes) ? TM_FLOAT : static_cast<TmType>(it - std::begin(kValueTypes));
+}
+
+const char* typeName(int32_t type) {
+  return type >= TM_FLOAT && type <= TM_MATRIX ? nameOf(valueTypeOf(type)) : "unknown type";
 }
 
 int floatsOf(int32_t type) { return type == TM_STRING ? 0 : floatsPerValue(valueTypeOf(type)); }

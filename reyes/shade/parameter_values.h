@@ -25,8 +25,6 @@ ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 ValueType valueTypeOf(int32_t type);
 /// Returns the type of shaders for one of RIB; float for those that shaders do not have.
 TmType tmTypeOf(ValueType type);
-/// Returns the floats in one value of a TmType; 0 for strings.
-int floatsOf(int32_t type);
 /// Tells whether `given` is this type, without conversion. Integers are floats; points, vectors and normals differ by
 /// the declaration.
 bool accepts(int32_t type, ValueType given);

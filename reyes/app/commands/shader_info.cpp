@@ -17,19 +17,17 @@ namespace {
 double shortOf(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 Json defaultOf(const TmParamDecl& p) {
-  static constexpr int kFloats[] = {1, 3, 3, 3, 3, 0, 16};
   const int32_t type = TM_TYPE_OF(p.type);
   Json value = Json::array();
-  for (int i = 0; i < p.arrayLength * kFloats[type]; ++i) value.push_back(p.floats ? shortOf(p.floats[i]) : 0.0);
+  for (int i = 0; i < p.arrayLength * floatsOf(type); ++i) value.push_back(p.floats ? shortOf(p.floats[i]) : 0.0);
   for (int i = 0; type == TM_STRING && p.strings && i < p.arrayLength; ++i) value.push_back(p.strings[i]);
   return value;
 }
 
 Json paramInfo(const TmParamDecl& p) {
-  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
   const int32_t type = TM_TYPE_OF(p.type);
   const bool known = type >= TM_FLOAT && type <= TM_MATRIX, output = (p.type & TM_OUTPUT) != 0;
-  Json out = {{"name", p.name}, {"type", known ? std::string(output ? "output " : "") + kTypes[type] : "?"}};
+  Json out = {{"name", p.name}, {"type", known ? std::string(output ? "output " : "") + typeName(type) : "?"}};
   if (!output) out["default"] = known ? defaultOf(p) : Json::array();
   out["doc"] = p.doc ? p.doc : "";
   if (const char* role = roleName(p.role)) out["role"] = role;

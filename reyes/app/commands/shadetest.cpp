@@ -72,7 +72,6 @@ int numbersIn(const std::string& text) {
 
 /// Writes the parameters of the command line as a request has them.
 std::string writtenParameters(const ShadetestCommand& command, const TmShader& shader, Log& log) {
-  static constexpr const char* kTypes[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
   std::string out;
   for (const std::string& given : command.parameters) {
     const size_t at = given.find('=');
@@ -86,8 +85,8 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
     }
     std::string values = value;
     std::replace(values.begin(), values.end(), ',', ' ');
-    const bool text = TM_TYPE_OF(p->type) == TM_STRING;
-    const int type = TM_TYPE_OF(p->type), needed = p->arrayLength * (type == TM_FLOAT ? 1 : type == TM_MATRIX ? 16 : 3);
+    const int type = TM_TYPE_OF(p->type), needed = p->arrayLength * floatsOf(type);
+    const bool text = type == TM_STRING;
     if (!text && numbersIn(values) != needed) {
       log.report(Severity::Missing, "shadetest-parameter", {},
                  fmt::format("\"{}\" takes {} number{}, and not \"{}\"; it is ignored", name, needed,
@@ -95,8 +94,7 @@ std::string writtenParameters(const ShadetestCommand& command, const TmShader& s
       continue;
     }
     const std::string array = p->arrayLength > 1 ? fmt::format("[{}]", p->arrayLength) : "";
-    out += fmt::format(" \"uniform {}{} {}\" [{}]", kTypes[TM_TYPE_OF(p->type)], array, name,
-                       text ? "\"" + value + "\"" : values);
+    out += fmt::format(" \"uniform {}{} {}\" [{}]", typeName(type), array, name, text ? "\"" + value + "\"" : values);
   }
   return out;
 }

@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTypeNames[] = {"float", "color", "point", "vector", "normal", "string", "matrix"};
-constexpr size_t kFloats[] = {1, 3, 3, 3, 3, 0, 16};
 constexpr uintmax_t kMostText_bytes = 1 << 20;
 
 /// Returns a parameter as a shader declares it; nothing if it is none that a page changes.
@@ -24,8 +22,8 @@ std::optional<EditableParam> paramOf(const TmParamDecl& decl, TmRole role, const
     return std::nullopt;
   const auto length = static_cast<size_t>(decl.arrayLength);
   const std::string array = length == 1 ? "" : fmt::format("[{}]", length);
-  EditableParam out{decl.name, kTypeNames[type] + array, decl.doc ? decl.doc : "", role, {}};
-  const size_t floats = length * kFloats[type];
+  EditableParam out{decl.name, typeName(type) + array, decl.doc ? decl.doc : "", role, {}};
+  const size_t floats = length * static_cast<size_t>(floatsOf(type));
   out.value.numbers.assign(floats, 0.0f);
   if (decl.floats) out.value.numbers.assign(decl.floats, decl.floats + floats);
   for (size_t i = 0; type == TM_STRING && i < length; ++i)
