@@ -69,17 +69,11 @@ bool isLine(const BezierPatch& patch) {
   return true;
 }
 
-/// Returns the normal at a point slightly nearer to the middle of the patch, where the derivatives are independent
-/// again. Double precision keeps the direction of the small derivative there.
-vec3 normalNearby(const BezierPatch& patch, double u, double v) {
-  for (double step : {1e-3, 1e-2, 1e-1}) {
-    const double a = u + (0.5 - u) * step, b = v + (0.5 - v) * step;
-    const glm::dvec3 du = weighted(patch, bernsteinDerivative(a), bernstein(b));
-    const glm::dvec3 dv = weighted(patch, bernstein(a), bernsteinDerivative(b));
-    const glm::dvec3 normal = glm::cross(du, dv);
-    if (glm::length(normal) > 1e-6 * glm::length(du) * glm::length(dv)) return vec3(glm::normalize(normal));
-  }
-  return {0, 0, 1};
+vec3 limitNormal(const BezierPatch& patch, double u, double v) {
+  return vec3(glm::normalize(normalNearby(u, v, 1e-6, [&](double a, double b) {
+    return std::pair(weighted(patch, bernsteinDerivative(a), bernstein(b)),
+                     weighted(patch, bernstein(a), bernsteinDerivative(b)));
+  })));
 }
 
 double extentOf(const BezierPatch& patch) {
@@ -153,7 +147,7 @@ void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const floa
   for (int i = 0; i < n; ++i) {
     if (glm::length(normalOf(out, i)) > degenerate) continue;
     if (!line) line = isLine(patch);
-    setNormal(out, i, *line ? vec3(0, 0, 1) : normalNearby(patch, u[i], v[i]));
+    setNormal(out, i, *line ? vec3(0, 0, 1) : limitNormal(patch, u[i], v[i]));
   }
 }
 

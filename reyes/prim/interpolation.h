@@ -1,6 +1,7 @@
 // Private to the primitives: arithmetic that several of them share.
 #pragma once
 #include <array>
+#include <utility>
 
 #include "reyes/prim.h"
 
@@ -50,5 +51,22 @@ inline void setNormal(SurfacePoints points, int i, const vec3& normal) {
   points.nz[i] = normal.z;
 }
 inline vec3 normalOf(SurfacePoints points, int i) { return {points.nx[i], points.ny[i], points.nz[i]}; }
+
+/// Returns a normal, of any length, for a point (u,v) where the derivatives are dependent, such as where an edge is a
+/// point: that of a point slightly nearer to the middle of the patch, where they are independent again. derivativesAt
+/// (u, v) returns dPdu and dPdv as a pair of vectors of Real. Of three steps the smallest counts at which the sine of
+/// the angle between the derivatives exceeds `leastSine`, which is chosen so that rounding does not turn the normal:
+/// 1e-4 for derivatives in single precision, whose rounding of 6e-8 grows where they are differences of near numbers;
+/// 1e-6 for derivatives in double precision, which keep the direction of a very small one, but of control points in
+/// single precision. Returns (0, 0, 1) if no step helps.
+template <class Real, class DerivativesAt>
+glm::vec<3, Real> normalNearby(Real u, Real v, Real leastSine, const DerivativesAt& derivativesAt) {
+  for (const Real step : {Real(1e-3), Real(1e-2), Real(1e-1)}) {
+    const auto [du, dv] = derivativesAt(u + (Real(0.5) - u) * step, v + (Real(0.5) - v) * step);
+    const glm::vec<3, Real> normal = glm::cross(du, dv);
+    if (glm::length(normal) > leastSine * glm::length(du) * glm::length(dv)) return normal;
+  }
+  return {0, 0, 1};
+}
 
 }  // namespace tomales

@@ -140,12 +140,10 @@ namespace {
 vec3 normalOf(const RationalNet& net, double degenerate, const RationalPoint& s, double u, double v) {
   const glm::dvec3 normal = glm::cross(s.du, s.dv);
   if (glm::length(normal) > degenerate) return vec3(normal);
-  for (double step : {1e-3, 1e-2, 1e-1}) {
-    const RationalPoint near = evaluateRational(net, u + (0.5 - u) * step, v + (0.5 - v) * step);
-    const glm::dvec3 n = glm::cross(near.du, near.dv);
-    if (glm::length(n) > 1e-6 * glm::length(near.du) * glm::length(near.dv)) return vec3(glm::normalize(n));
-  }
-  return {0, 0, 1};
+  return vec3(glm::normalize(normalNearby(u, v, 1e-6, [&](double a, double b) {
+    const RationalPoint nearby = evaluateRational(net, a, b);
+    return std::pair(nearby.du, nearby.dv);
+  })));
 }
 
 }  // namespace

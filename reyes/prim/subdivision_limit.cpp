@@ -19,19 +19,15 @@ Frame frameAt(const FaceAt& face, const FaceMap& map, float u, float v) {
   return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
 }
 
-/// Returns the cross product of the derivatives; where they are dependent, that of a point slightly nearer to the
-/// middle.
+/// Returns the cross product of the derivatives; where they are dependent, normalNearby().
 vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Frame& frame) {
-  const auto normal = [](const Frame& f) { return cross(f.du, f.dv); };
-  const auto independent = [&](const Frame& f) {
-    return glm::length(normal(f)) > 1e-4f * glm::length(f.du) * glm::length(f.dv);
-  };
-  if (independent(frame)) return normal(frame);
-  for (float step : {1e-3f, 1e-2f, 1e-1f}) {
-    const Frame nearby = frameAt(face, map, lerp(u, 0.5f, step), lerp(v, 0.5f, step));
-    if (independent(nearby)) return normal(nearby);
-  }
-  return {0, 0, 1};
+  constexpr float kLeastSine = 1e-4f;
+  const vec3 normal = cross(frame.du, frame.dv);
+  if (glm::length(normal) > kLeastSine * glm::length(frame.du) * glm::length(frame.dv)) return normal;
+  return normalNearby(u, v, kLeastSine, [&](float a, float b) {
+    const Frame nearby = frameAt(face, map, a, b);
+    return std::pair(nearby.du, nearby.dv);
+  });
 }
 
 }  // namespace
