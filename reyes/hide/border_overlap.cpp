@@ -2,12 +2,11 @@
 
 #include <bit>
 
+#include "reyes/hide/depth_error.h"
 #include "reyes/hide/gathered.h"
 
 namespace tomales {
 namespace {
-
-constexpr float kDepthRounding = 1e-5f;  ///< Relative error of depth keys.
 
 /// Range of the depth keys of a cell, which begins at vertex a.
 float extentOf(const RasterGrid& raster, int a) {
@@ -79,7 +78,7 @@ BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids,
     const BorderCell mine(entry, camera, cells[s]), theirs(otherEntry, camera, otherCells[s]);
     if (!mine.joins() || !theirs.joins()) continue;
     const float d = layers.depths(layer)[s], otherD = layers.depths(other)[s];
-    if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kDepthRounding * std::abs(d)) continue;
+    if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kJoinedDepthError * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
     // The nearer sample stays where both reach over.

@@ -1,3 +1,4 @@
+#include "reyes/hide/gathered.h"
 #include "reyes/hide/resolve.h"
 
 namespace tomales {
@@ -18,7 +19,7 @@ SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell,
   const Grid& g = entry.grid();
   const RasterGrid& raster = *entry.raster;
   const std::vector<float>& keyTimes = entry.keyTimes;
-  const int row = g.nu + 1, a = cell / g.nu * row + cell % g.nu;
+  const int row = g.nu + 1, a = firstVertex(g, cell);
   const float time = sample.time;
   size_t key = 0;
   while (key + 2 < keyTimes.size() && time >= keyTimes[key + 1]) ++key;

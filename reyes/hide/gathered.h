@@ -10,6 +10,7 @@ inline float reciprocalLength(float length2) {
   return length2 > 0.0f && length2 < kInfinity ? 1.0f / std::sqrt(length2) : 0.0f;
 }
 
+/// Returns the vertex of a cell that has the least u and v.
 inline int firstVertex(const Grid& g, int cell) { return cell + cell / g.nu; }
 
 /// Differences at a vertex: central, or one-sided at the border, scaled to one micropolygon.

@@ -144,7 +144,8 @@ struct alignas(64) Triangles {
 
  private:
   static HWY_INLINE Floats depthErrorBound(Floats slope, Floats depth) {
-    return hn::Add(hn::Add(hn::Div(slope, all(kSubpixels)), hn::Mul(all(4e-7f), hn::Abs(depth))), all(kTiny));
+    return hn::Add(hn::Add(hn::Div(slope, all(kSubpixels)), hn::Mul(all(kInterpolatedDepthError), hn::Abs(depth))),
+                   all(kTiny));
   }
 
   /// Returns twice the signed area of a triangle, from two of its sides.

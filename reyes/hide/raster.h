@@ -7,14 +7,10 @@
 // (reyes/hide/quad.h), which floats hold exactly, so that a fan around a vertex neither misses a sample nor hits it
 // twice.
 #pragma once
+#include "reyes/hide/depth_error.h"
 #include "reyes/hide/samples.h"
-#include "reyes/hide/subpixel.h"
 
 namespace tomales {
-
-/// A number far below the difference of two values of an edge function: `value > -kTiny` means `value >= 0`, but as a
-/// number that a vector can select, and that survives threads that flush denormals.
-constexpr float kTiny = 1e-30f;
 
 /// The arguments of the loops over a grid.
 struct RasterJob {
@@ -52,9 +48,6 @@ uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64
 /// Gives samples of a mask with equal depths to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// Returns the error bound of a depth key. It is above 0, because vertices lie on the lattice and numbers are floats.
-/// `slope` is the change of the depth key in a pixel.
-inline float depthErrorBound(float slope, float depth) { return slope / kSubpixels + 4e-7f * std::abs(depth) + kTiny; }
 /// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
 /// decide, if that is of another object.
 void noteDepthConflict(const RasterJob& job, size_t firstLane, uint64_t lanes, float depthError);

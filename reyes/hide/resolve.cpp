@@ -7,6 +7,7 @@
 #include "reyes/base/lent.h"
 #include "reyes/hide/border_overlap.h"
 #include "reyes/hide/cell_coverage.h"
+#include "reyes/hide/depth_error.h"
 #include "reyes/hide/facets.h"
 
 namespace tomales {
@@ -34,8 +35,7 @@ struct Scratch {
 };
 
 class TileBuilder {
-  static constexpr size_t kAhead = 24;       ///< Layers that are prefetched ahead of the current one.
-  static constexpr float kRounding = 1e-5f;  ///< Relative error of depth keys.
+  static constexpr size_t kAhead = 24;  ///< Layers that are prefetched ahead of the current one.
 
  public:
   TileBuilder(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples, Scratch& scratch)
@@ -198,7 +198,7 @@ class TileBuilder {
       most = std::max(most, s.depth);
     }
     const auto reachOf = [](const LayerInOrder& a, float other) {
-      return a.extent.farthest + 2 * (a.depth + other) + kRounding * std::abs(a.extent.farthest);
+      return a.extent.farthest + 2 * (a.depth + other) + kJoinedDepthError * std::abs(a.extent.farthest);
     };
     for (size_t i = 0; i < ordered.size(); ++i) {
       LayerInOrder& a = ordered[i];
