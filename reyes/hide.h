@@ -13,14 +13,13 @@
 
 namespace tomales {
 
-/// Positions of the samples of every pixel: one of up to 256 precomputed stratified patterns, chosen by a hash of the
-/// pixel.
+/// Positions of the samples of every pixel: one of some precomputed stratified patterns, chosen by a hash of the pixel.
 class SamplePattern {
  public:
   SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t seed, const Aperture& aperture = {});
   int count() const { return count_; }
   int padded() const { return padded_; }
-  int patternCount() const { return patterns_; }  ///< There are so many that no repetition is seen.
+  int patternCount() const { return patterns_; }
   int patternOf(int x, int y) const;
   /// Returns numbers in [0,1) inside the pixel; padded() floats.
   const float* x(int pattern) const { return of(x_, pattern); }

@@ -10,6 +10,9 @@ namespace tomales {
 
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
+/// Tells whether a program that returned this code has finished its picture, if perhaps with substitutes in it, of
+/// which its log tells.
+constexpr bool succeeded(int code) { return code == kDone || code == kIncomplete; }
 ExitCode exitCodeOf(Severity severity);
 /// Returns the code for the worst that was reported. With `strict` a warning counts as something missing.
 ExitCode exitCodeOf(const Log& log, bool strict = false);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "reyes/base/checksum.h"
 #include "reyes/base/log.h"
 
 namespace tomales {
@@ -39,8 +40,6 @@ struct DamageError : FileError {
 /// removed, and `make` runs again, to make the file that is missing then. If a file is damaged for the second time, its
 /// DamageError is thrown: it was made so.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
-
-using Bytes = std::vector<std::byte>;
 
 /// Threads: one writer is used by one thread.
 class ChunkWriter {

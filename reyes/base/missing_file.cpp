@@ -1,21 +1,16 @@
 #include "reyes/base/missing_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
 #include "reyes/base/near_names.h"
+#include "reyes/base/text.h"
 
 namespace tomales {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lowered(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// Lists files of folders, until so many entries have been seen: a scene may name the root of a large disk.
 class Listing {
@@ -48,10 +43,12 @@ class Listing {
 class Wanted {
  public:
   Wanted(const std::string& name, const std::vector<std::string>& endings)
-      : name_(lowered(fs::path(name).filename().string())), stem_(fs::path(name_).stem().string()), endings_(endings) {}
+      : name_(lowerCase(fs::path(name).filename().string())),
+        stem_(fs::path(name_).stem().string()),
+        endings_(endings) {}
 
   bool is(const fs::path& file) const {
-    const fs::path other = lowered(file.filename().string());
+    const fs::path other = lowerCase(file.filename().string());
     return other == name_ || ((other.stem() == stem_ || other.stem() == name_) && isEnding(other.extension().string()));
   }
   bool isEnding(const std::string& ending) const {
@@ -82,7 +79,7 @@ std::string hintOfMissing(const std::string& name, const std::vector<std::string
     return "; " + shown(*it) + " is there, in a folder that is not searched";
   std::vector<std::string> names;
   for (const fs::path& file : searched.files())
-    if (wanted.isEnding(lowered(file.extension().string()))) names.push_back(file.filename().string());
+    if (wanted.isEnding(lowerCase(file.extension().string()))) names.push_back(file.filename().string());
   return didYouMean(fs::path(name).filename().string(), names);
 }
 

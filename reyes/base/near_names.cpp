@@ -1,8 +1,9 @@
 #include "reyes/base/near_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
+
+#include "reyes/base/text.h"
 
 namespace tomales {
 namespace {
@@ -26,12 +27,6 @@ size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most) {
@@ -42,7 +37,7 @@ std::vector<std::string> nearNames(std::string_view wanted, const std::vector<st
   for (const std::string& name : known) {
     const size_t difference = name.size() > wanted.size() ? name.size() - wanted.size() : wanted.size() - name.size();
     if (difference > farthest) continue;
-    const size_t distance = editDistance(lowered(wanted), lowered(name));
+    const size_t distance = editDistance(lowerCase(std::string(wanted)), lowerCase(name));
     if (distance <= farthest && distance < wanted.size()) near.emplace_back(distance, &name);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "reyes/base/search_path.h"
+#include "reyes/base/text.h"
 #include "reyes/base/trust.h"
 #include "reyes/display_driver.h"
 #include "reyes/image/formats.h"
@@ -99,9 +100,7 @@ void warnOfWhatOthersHave(const DisplayCall& display, const PictureFormat& forma
 
 std::string displayText(const DisplayCall& display, const char* name) {
   const Param* p = findParam(display.params, name);
-  std::string value = p && !p->strings.empty() ? p->strings[0] : "";
-  for (char& c : value) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return value;
+  return p && !p->strings.empty() ? lowerCase(p->strings[0]) : "";
 }
 
 void warnAboutParams(const DisplayCall& display, Log& log) {

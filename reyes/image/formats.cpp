@@ -1,8 +1,9 @@
 #include "reyes/image/formats.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
+
+#include "reyes/base/text.h"
 
 namespace tomales {
 
@@ -51,8 +52,7 @@ const PictureFormat* formatOfType(std::string_view displayType) {
 }
 
 const PictureFormat* formatOfExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowerCase(std::filesystem::path(path).extension().string());
   for (const PictureFormat* f : pictureFormats())
     if (has(f->extensions, extension)) return f;
   return nullptr;

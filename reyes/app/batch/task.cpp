@@ -25,9 +25,6 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kPause{20};
 constexpr std::chrono::seconds kBeforeRetry{2};
 
-/// A picture with a substitute in it is finished: its log and `batch status` tell of it.
-bool succeeded(int code) { return code == kDone || code == kIncomplete; }
-
 }  // namespace
 
 RunningTask::RunningTask(const BatchPlan& plan, const BatchTask& task, int attempt)

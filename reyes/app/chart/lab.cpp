@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "reyes/app/exit_code.h"
 #include "reyes/app/watch/cpu_time.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/checksum.h"
@@ -107,7 +108,7 @@ Ended await(pid_t child, Clock::time_point deadline) {
   wait4(child, &status, 0, &usage);
   out.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   out.cpu_s = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
-  out.good = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
+  out.good = WIFEXITED(status) && succeeded(WEXITSTATUS(status));
   if (!out.good && out.why.empty()) out.why = "the renderer failed";
   return out;
 }

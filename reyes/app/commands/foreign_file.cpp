@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "reyes/base/text.h"
 #include "reyes/pictures.h"
 
 namespace tomales {
@@ -50,11 +51,7 @@ constexpr std::string_view kPictureMagic[] = {
     {"\x76\x2f\x31\x01", 4}, {"II*\0", 4},        {"MM\0*", 4}, {"II+\0", 4}, {"MM\0+", 4},
     {"\x89PNG\r\n", 6},      {"\xff\xd8\xff", 3}, "#?RADIANCE", "#?RGBE"};
 
-std::string endingOf(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
+std::string endingOf(const std::string& file) { return lowerCase(std::filesystem::path(file).extension().string()); }
 
 bool beginsAsPicture(const std::string& file) {
   std::error_code none;

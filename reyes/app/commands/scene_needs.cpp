@@ -5,17 +5,14 @@
 
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
+#include "reyes/base/text.h"
 #include "reyes/pictures.h"
 #include "reyes/rsl_host.h"
 
 namespace tomales {
 namespace {
 
-std::string endingOf(const std::string& name) {
-  std::string out = std::filesystem::path(name).extension().string();
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
+std::string endingOf(const std::string& name) { return lowerCase(std::filesystem::path(name).extension().string()); }
 
 /// Tells whether a text seems to name a picture.
 bool namesMap(const std::string& text) {

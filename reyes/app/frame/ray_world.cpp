@@ -31,6 +31,13 @@ bool sameForRays(const Attributes& a, const Attributes& b) {
   return x == y;
 }
 
+/// Gives a scene the lights of another, and what their shaders may ask for.
+void takeLights(Scene& scene, const Scene& from) {
+  scene.lights = from.lights;
+  scene.worldFromNamed = from.worldFromNamed;
+  scene.worldFromOpenings = from.worldFromOpenings;
+}
+
 }  // namespace
 
 RayGeometry::RayGeometry(Scene scene, ShaderRegistry& shaders, const RenderSettings& settings,
@@ -57,9 +64,7 @@ bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const Shade
   }
   for (size_t o = 0; o < scene_.objects.size(); ++o)
     scene_.objects[o].attributes = scene_.groups[static_cast<size_t>(scene_.objects[o].group)].attributes;
-  scene_.lights = shot.scene.lights;
-  scene_.worldFromNamed = shot.scene.worldFromNamed;
-  scene_.worldFromOpenings = shot.scene.worldFromOpenings;
+  takeLights(scene_, shot.scene);
   first_->setServices(services);
   dressed_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
   tools_.shading = dressed_.get();
@@ -100,9 +105,7 @@ bool RayWorld::sourcesAreUnchanged() const {
 void RayWorld::dress(Scene& scene) const {
   for (Object& object : scene.objects)
     object.attributes = shot_.scene.groups[static_cast<size_t>(object.group)].attributes;
-  scene.lights = shot_.scene.lights;
-  scene.worldFromNamed = shot_.scene.worldFromNamed;
-  scene.worldFromOpenings = shot_.scene.worldFromOpenings;
+  takeLights(scene, shot_.scene);
   scene.options = shot_.scene.options;
   scene.freeze();
 }

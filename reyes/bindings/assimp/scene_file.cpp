@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "reyes/base/text.h"
 #include "reyes/bindings/assimp/camera.h"
 #include "reyes/bindings/assimp/lights.h"
 #include "reyes/bindings/assimp/look.h"
@@ -16,11 +17,7 @@ namespace {
 /// Meshes of more numbers are binary archives beside the RIB.
 constexpr size_t kMostInline = 2000;
 
-std::string endingOf(const std::string& file) {
-  std::string out = std::filesystem::path(file).extension().string();
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
+std::string endingOf(const std::string& file) { return lowerCase(std::filesystem::path(file).extension().string()); }
 
 bool isGltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; }
 
