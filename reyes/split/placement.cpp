@@ -16,7 +16,7 @@ Bound3 boundThrough(const mat4& m, const Bound3& b) {
 
 }  // namespace
 
-Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect) {
+Bound3 undisplacedBound(const Object& o, uint32_t patch, const UvRect& rect) {
   Bound3 object;
   for (const PrimPtr& shape : o.shapes) object.extend(shape->bound(patch, rect));
   Bound3 camera;

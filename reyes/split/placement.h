@@ -4,8 +4,9 @@
 
 namespace tomales {
 
-/// Returns the box in camera space around a rectangle, over the shutter, before displacement.
-Bound3 cameraBound(const Object& o, uint32_t patch, const UvRect& rect);
+/// Returns the box in camera space around a rectangle, over the shutter, before displacement. (cameraBound() of
+/// reyes/camera_bound.h is that of a whole object after displacement.)
+Bound3 undisplacedBound(const Object& o, uint32_t patch, const UvRect& rect);
 /// Returns the raster length of the path of a rectangle's middle over the shutter. Pre: it stays in front of the eye.
 float pathLength_px(const Object& o, const Camera& camera, uint32_t patch, const UvRect& rect);
 /// Returns the least diameter of the circle of confusion in a range of depths; 0 if the focal plane is among them.

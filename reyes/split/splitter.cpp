@@ -74,7 +74,7 @@ Splitter::Splitter(const Scene& scene, int object, const Camera& camera, const P
 
 std::optional<Bound3> Splitter::takeDot(uint32_t patch, std::vector<SubPatch>& out) {
   if (stopped()) return std::nullopt;
-  const Bound3 bare = cameraBound(object_, patch, UvRect{});
+  const Bound3 bare = undisplacedBound(object_, patch, UvRect{});
   const bool seen = !view_.cannotBeSeen(bare);
   if (seen && view_.crossesEye(bare)) return bare;
   const Bound2 raster = seen ? view_.rasterOf(bare, kLeastReach_px) : Bound2{};
@@ -113,7 +113,7 @@ void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from,
   }
   --budget_;
   ++stats_.geometry.piecesVisited;
-  Bound3 bare = known && known->bare ? *known->bare : cameraBound(object_, patch, rect);
+  Bound3 bare = known && known->bare ? *known->bare : undisplacedBound(object_, patch, rect);
   if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
     ++stats_.geometry.culled;
     return;
@@ -207,7 +207,7 @@ void Splitter::cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, 
     end = k == parts ? to : lerp(from, to, static_cast<float>(k) / static_cast<float>(parts));
     --budget_;
     ++stats_.geometry.piecesVisited;
-    const Bound3 bare = cameraBound(object_, patch, part);
+    const Bound3 bare = undisplacedBound(object_, patch, part);
     if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, part) == Kept::None) {
       ++stats_.geometry.culled;
       continue;

@@ -28,7 +28,7 @@ class Splitter {
   /// Known facts about a whole patch before it is split.
   struct Known {
     PatchSize size;                ///< The result of measureWhole().
-    const Bound3* bare = nullptr;  ///< The result of cameraBound(); null if it has not been computed.
+    const Bound3* bare = nullptr;  ///< The result of undisplacedBound(); null if it has not been computed.
   };
   void splitPatch(uint32_t patch, const Known& known, std::vector<SubPatch>& out) {
     splitWithin(visits_.ofPatch(object_.shape().patchCount()), patch, UvRect{}, 0, &known, out);
