@@ -84,7 +84,7 @@ std::vector<std::filesystem::path> withFoldersAbove(const std::vector<std::strin
 
 }  // namespace
 
-std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders) {
+std::vector<std::string> pathSuffixes(const std::string& name, const std::vector<std::string>& folders) {
   namespace fs = std::filesystem;
   std::vector<std::string> out;
   if (name.size() > kLongestName) return out;
@@ -115,7 +115,7 @@ std::vector<std::string> candidateFiles(const std::string& name, const std::stri
   };
   std::vector<std::string> folders = foldersOf(searchPath);
   folders.push_back(".");
-  std::vector<std::string> places = endsOf(name, folders);
+  std::vector<std::string> places = pathSuffixes(name, folders);
   places.insert(places.begin(), name);
   for (const std::string& place : places) {
     add(place);

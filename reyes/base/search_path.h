@@ -31,12 +31,12 @@ std::string lastPartOf(const std::string& name);
 /// "ann/bowl/maps/a.tx", "bowl/maps/a.tx" and "maps/a.tx", and at last "a.tx". Each is also looked for in those of
 /// `folders`, and of the folders above them, that have the name of the part before: "maps/a.tx" in a folder "bowl". The
 /// relative name "maps/a.tx" may lie in any of these folders. Empty for a name that is too long for a file.
-std::vector<std::string> endsOf(const std::string& name, const std::vector<std::string>& folders);
+std::vector<std::string> pathSuffixes(const std::string& name, const std::vector<std::string>& folders);
 
 /// Returns the files that a name may mean, best first:
 ///   1 that of findFile()
 ///   2 those of its name but with one of `endings`: the picture that a texture was made of lies beside it
-///   3 the same two for each of endsOf() the name
+///   3 the same two for each of pathSuffixes() the name
 std::vector<std::string> candidateFiles(const std::string& name, const std::string& searchPath,
                                         const std::vector<std::string>& endings = {});
 

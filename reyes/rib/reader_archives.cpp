@@ -75,7 +75,8 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
   std::string path = findFile(name, "archive");
-  const std::vector<std::string> ends = path.empty() ? endsOf(name, foldersFor("archive")) : std::vector<std::string>();
+  const std::vector<std::string> ends =
+      path.empty() ? pathSuffixes(name, foldersFor("archive")) : std::vector<std::string>();
   for (size_t i = 0; i < ends.size() && path.empty(); ++i)
     if (path = findFile(ends[i], "archive"); !path.empty())
       report(Severity::Warning, "rib-elsewhere", r,
