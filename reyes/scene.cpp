@@ -48,8 +48,8 @@ class GroupHash {
   uint64_t value_ = 0;
 };
 
-// Key times inside the shutter, its opening first. A still object, or a closed shutter, has that one time alone.
-// shapeTimes is empty if the shape does not change.
+// Returns Object::keyTimes. Only the opening is left if nothing moves or the shutter is closed. `shapeTimes` is empty
+// if the shape does not change.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
@@ -70,15 +70,15 @@ float largestScale(const mat4& m) {
   return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
 }
 
-// Motion relative to the camera at shutter open; `m` is the object's transformation then. It does not use the camera's
-// motion interpolated at that time, which may lie between two keys: a still object must be exactly where the camera
-// sees it.
+// Returns the motion of an object as seen by a camera that stays where it is when the shutter opens. `m` is
+// cameraFromObject at that time. The camera's own motion is not used, because that time may lie between two of its
+// keys, and interpolation would add rounding: a still object must be exactly where the camera sees it.
 Motion heldCamera(const Motion& worldFromObject, float open, const mat4& m) {
   if (!worldFromObject.moving()) return Motion::still(m);
   return Motion::still(m * glm::inverse(worldFromObject.at(open))) * worldFromObject;
 }
 
-// Points and curves turn to the eye as it stands when the shutter opens.
+// Turns shapes that face the eye, such as points and curves, to the place of the eye when the shutter opens.
 void turnToEye(Object& o, const mat4& cameraFromObject, bool perspective) {
   const mat4 objectFromCamera = glm::inverse(cameraFromObject);
   const vec3 eye = transformPoint(objectFromCamera, vec3(0)),
@@ -197,8 +197,8 @@ void Scene::freeze() {
   }
 }
 
-Expansion Scene::opened(const Procedural& procedural) const {
-  Expansion out = procedural.open();
+Expansion Scene::expanded(const Procedural& procedural) const {
+  Expansion out = procedural.expand();
   uint32_t number = 0;
   for (Object& o : out.objects) {
     derive(o);
@@ -247,7 +247,7 @@ void Scene::drop(int object) {
   dropped_.push_back(object);
 }
 
-void Scene::open(const std::function<bool(const Attributes&)>& wanted) {
+void Scene::expandAll(const std::function<bool(const Attributes&)>& wanted) {
   std::vector<Procedural> kept;
   while (!procedurals.empty()) {
     const auto rest = std::stable_partition(procedurals.begin(), procedurals.end(),
@@ -257,7 +257,7 @@ void Scene::open(const std::function<bool(const Attributes&)>& wanted) {
     procedurals.clear();
     std::vector<Expansion> expansions(now.size());
     parallelFor(now.size(), 1, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) expansions[i] = opened(now[i]);
+      for (size_t i = begin; i < end; ++i) expansions[i] = expanded(now[i]);
     });
     for (Expansion& e : expansions) {
       add(e);

@@ -44,7 +44,7 @@ struct Object {
   bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;               ///< Index of its ShadeGroup.
-  uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are opened.
+  uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are expanded.
 
   const Prim& shape() const { return *shapes.front(); }
   /// Before the first of `shapeTimes` and after the last, the shape stays as it is then.
@@ -81,7 +81,7 @@ struct Procedural {
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
   /// Describes the geometry, anew with each call. May be called from several threads.
-  std::function<Expansion()> open;
+  std::function<Expansion()> expand;
 
   // Filled by Scene::freeze().
   Motion cameraFromObject;
@@ -102,7 +102,7 @@ struct Scene {
   Motion cameraFromWorld;
   StableVector<Object> objects;
   StableVector<Solid> solids;
-  std::vector<Procedural> procedurals;  ///< Not opened yet.
+  std::vector<Procedural> procedurals;  ///< Not expanded yet.
   std::vector<std::shared_ptr<LightCall>> lights;
   std::map<std::string, mat4> worldFromNamed;  ///< Spaces of CoordinateSystem requests.
   /// Unit squares through which the program has found that a sky is seen (docs/decisions/0185).
@@ -114,15 +114,15 @@ struct Scene {
   /// attributes.
   void freeze();
 
-  /// Opens a procedural. The result has its derived fields except for its groups. The scene does not change.
-  Expansion opened(const Procedural& procedural) const;
-  /// Adds the objects of opened(), and their solids, and finds their groups. Returns their indices.
+  /// Expands a procedural. The result has its derived fields except for its groups. The scene does not change.
+  Expansion expanded(const Procedural& procedural) const;
+  /// Adds the objects of expanded(), and their solids, and finds their groups. Returns their indices.
   /// ShadingSystem::bindNewGroups has to be called next.
   std::vector<int> add(Expansion& expansion);
   /// Drops the shapes of an object of add() that is not needed any more.
   void drop(int object);
-  /// Opens all procedurals that are `wanted`, nested ones included. Call it before any object is used.
-  void open(const std::function<bool(const Attributes&)>& wanted);
+  /// Expands all procedurals that are `wanted`, nested ones included. Call it before any object is used.
+  void expandAll(const std::function<bool(const Attributes&)>& wanted);
 
   /// Returns a scene with its options, spaces, openings, lights and place alone.
   Scene withoutObjects() const;

@@ -21,8 +21,8 @@ class ChangedAttributes {
 
   void replace(Procedural& p) {
     replace(p.attributes);
-    p.open = [change = change_, open = std::move(p.open)] {
-      Expansion out = open();
+    p.expand = [change = change_, expand = std::move(p.expand)] {
+      Expansion out = expand();
       ChangedAttributes changed(change);
       for (Object& o : out.objects) changed.replace(o.attributes);
       for (Procedural& inner : out.procedurals) changed.replace(inner);

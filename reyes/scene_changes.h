@@ -1,5 +1,5 @@
 // Changes to all attributes of a scene that has been read, before it is used. Threads: one may call it; the contents of
-// procedurals are changed by the threads that open them.
+// procedurals are changed by the threads that expand them.
 #pragma once
 #include <functional>
 
@@ -7,8 +7,8 @@
 
 namespace tomales {
 
-/// Gives each object a changed copy of its attributes, and the contents of procedurals when they are opened: any thread
-/// may call `change`, as long as the scene lives. Objects that shared attributes keep sharing.
+/// Gives each object a changed copy of its attributes, and the contents of procedurals when they are expanded: any
+/// thread may call `change`, as long as the scene lives. Objects that shared attributes keep sharing.
 void changeAttributes(Scene& scene, const std::function<void(Attributes&)>& change);
 
 /// Tells whether the object is displaced, and nobody has said if rays see that (Attribute "trace" "displacements").

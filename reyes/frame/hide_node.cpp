@@ -242,7 +242,7 @@ class ProceduralNode : public OpeningNode {
   HideNodes open(const BucketRange& within) override {
     Expansion inside;
     try {
-      inside = context_.scene.opened(procedural_);
+      inside = context_.scene.expanded(procedural_);
     } catch (const Stopped&) {  // the bucket is given up like all others that are not finished
       return {};
     }

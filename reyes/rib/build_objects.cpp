@@ -215,14 +215,15 @@ bool SceneBuilder::takesProcedurals() const {
   return state_.world && !recording_ && !master_ && !motion_ && !state_.isOpen(Block::Solid);
 }
 
-void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expansion()> open, const SourceLoc& where) {
+void SceneBuilder::addProcedural(const std::vector<float>& b, std::function<Expansion()> expand,
+                                 const SourceLoc& where) {
   if (state_.scope.attributes->detail.empty()) return;  // another level of detail is drawn
   Procedural p;
   p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   p.worldFromObject = state_.scope.ctm;
   p.attributes = state_.scope.attributes = state_.attributesInterner(state_.scope.attributes);
   p.where = where;
-  p.open = std::move(open);
+  p.expand = std::move(expand);
   state_.world->procedurals.push_back(std::move(p));
 }
 

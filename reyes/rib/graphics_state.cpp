@@ -134,7 +134,7 @@ Expansion withLights(Expansion contents, const std::vector<int>& lights) {
   for (Object& o : contents.objects) light(o.attributes);
   for (Procedural& p : contents.procedurals) {
     light(p.attributes);
-    p.open = [open = std::move(p.open), lights] { return withLights(open(), lights); };
+    p.expand = [expand = std::move(p.expand), lights] { return withLights(expand(), lights); };
   }
   return contents;
 }
@@ -172,7 +172,7 @@ void GraphicsState::lightEarlierObjects() {
     Procedural& p = world->procedurals[i];
     const std::vector<int> lights = lacking(*p.attributes, later);
     p.attributes = withLights(p.attributes, lights);
-    p.open = [open = std::move(p.open), lights] { return withLights(open(), lights); };
+    p.expand = [expand = std::move(p.expand), lights] { return withLights(expand(), lights); };
   }
 }
 

@@ -91,7 +91,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const std::unique_ptr<ShaderRegistry> shaders = frameShaders(settings, log);
   measureAreaLights(scene, *shaders, log);
   displaceByMovingSurfaces(scene, *shaders, log);
-  scene.open([](const Attributes& a) { return a.visibility.photon; });
+  scene.expandAll([](const Attributes& a) { return a.visibility.photon; });
   ShadingSystem shading(scene, *shaders, nullptr, log, stats);
   const Camera camera(scene.options);
   const RayScene rays(scene, camera, shading, raySettings(settings, scene.options), stats, log);

@@ -98,7 +98,7 @@ void SceneNeeds::add(const Scene& scene, const std::vector<Procedural>& procedur
   for (const Procedural& p : procedurals) {
     add(*p.attributes, scene);
     if (++opened_ > kMostProcedurals) return;
-    const Expansion inside = scene.opened(p);
+    const Expansion inside = scene.expanded(p);
     for (const Object& o : inside.objects) add(*o.attributes, scene);
     add(scene, inside.procedurals);
   }

@@ -61,7 +61,7 @@ FrameJob::~FrameJob() = default;
 
 void FrameJob::open(const std::function<bool(const Attributes&)>& wanted) {
   meter_.begin("opening procedurals");
-  scene_.open(wanted);
+  scene_.expandAll(wanted);
   shading_->bindNewGroups();
 }
 

@@ -141,7 +141,7 @@ std::unique_ptr<RayGeometry> RayWorld::build() {
   readRib(files, rib, log_);
   if (!scene) return give("the RIB holds no such frame any more");
   scene->options = shot_.scene.options;
-  scene->open([](const Attributes&) { return true; });
+  scene->expandAll([](const Attributes&) { return true; });
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");
   dress(*scene);
   if (!sameGroups(*scene, shot_.scene)) return give("its objects are not those of the shot any more");

@@ -48,7 +48,7 @@ struct Squares {
     p.bound = {vec3(0), vec3(1, 1, 0.1f)};
     p.worldFromObject = Motion::still(translation(corner));
     p.attributes = std::make_shared<Attributes>();
-    p.open = [this, corner, attributes = p.attributes] {
+    p.expand = [this, corner, attributes = p.attributes] {
       ++opened;
       Object o;
       o.shapes = {heightField(40)};

@@ -9,7 +9,7 @@ namespace tomales {
 
 /// Opens all procedurals of the scene.
 inline Scene opened(Scene&& scene) {
-  scene.open([](const Attributes&) { return true; });
+  scene.expandAll([](const Attributes&) { return true; });
   return std::move(scene);
 }
 
