@@ -49,9 +49,10 @@ Arguments withKnob(Arguments arguments, const std::string& value) {
   return arguments;
 }
 
-class Laboratory {
+/// Measures the curves of one command, within its budget of time.
+class StabilityRun {
  public:
-  Laboratory(const ChartSettings& settings, Log& log)
+  StabilityRun(const ChartSettings& settings, Log& log)
       : settings_(settings), log_(log), start_(std::chrono::steady_clock::now()) {}
 
   StabilityCurve measure(LabScene scene) {
@@ -151,17 +152,17 @@ int stabilityCommand(const ChartSettings& given) {
     return exitCodeOf(log);
   }
   std::vector<StabilityCurve> curves;
-  Laboratory laboratory(settings, log);
+  StabilityRun stability(settings, log);
   bool whole = true;
   for (const std::string& file : scenesOf(settings.files)) {
     std::string error;
     auto scene = readLabScene(file, error);
     if (!scene) {
       log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0},
-                 "is no scene of a laboratory: " + error);
+                 "is no scene of a stability: " + error);
       return exitCodeOf(log);
     }
-    curves.push_back(laboratory.measure(std::move(*scene)));
+    curves.push_back(stability.measure(std::move(*scene)));
     whole = whole && curves.back().missing.empty();
   }
   Arguments command{"tomales", "chart", "--stability"};

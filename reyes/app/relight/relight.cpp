@@ -50,9 +50,9 @@ std::string textOf(const HttpQuestion& q, const std::string& name) {
   return found == q.parameters.end() ? "" : found->second;
 }
 
-class Relight {
+class RelightServer {
  public:
-  Relight(const RelightCommand& command, const RenderSettings& settings, Stats& stats, Log& log)
+  RelightServer(const RelightCommand& command, const RenderSettings& settings, Stats& stats, Log& log)
       : command_(command),
         folder_(fs::temp_directory_path()),
         shot_(settings),
@@ -76,7 +76,7 @@ class Relight {
  private:
   /// Lets all handlers end, also if an exception ends this command: the server waits for them.
   struct End {
-    Relight& relight;
+    RelightServer& relight;
     ~End() {
       relight.prepared_.open(false);
       relight.ended_ = true;
@@ -112,7 +112,7 @@ class Relight {
   }
 
   /// A handler that waits until the shot is there.
-  using Answer = HttpReply (Relight::*)(const HttpQuestion&);
+  using Answer = HttpReply (RelightServer::*)(const HttpQuestion&);
   HttpHandler later(Answer answer) {
     return [this, answer](const HttpQuestion& q) {
       prepared_.pass();
@@ -135,17 +135,17 @@ class Relight {
       if (!prepared_.isOpen() || relighting_.isGathering()) requestStop();  // as Ctrl-C does
       return jsonReply(Json::object());
     });
-    const std::pair<const char*, Answer> gets[] = {{"scene", &Relight::scene},   {"offered", &Relight::offered},
-                                                   {"shader", &Relight::shader}, {"news", &Relight::news},
-                                                   {"object", &Relight::object}, {"whole", &Relight::whole},
-                                                   {"edits", &Relight::edits}};
-    const std::pair<const char*, Answer> posts[] = {{"edit", &Relight::edit},         {"leave", &Relight::leave},
-                                                    {"pointer", &Relight::pointer},   {"ask", &Relight::ask},
-                                                    {"variable", &Relight::variable}, {"gather", &Relight::gather},
-                                                    {"only", &Relight::only},         {"load", &Relight::load}};
+    const std::pair<const char*, Answer> gets[] = {
+        {"scene", &RelightServer::scene}, {"offered", &RelightServer::offered}, {"shader", &RelightServer::shader},
+        {"news", &RelightServer::news},   {"object", &RelightServer::object},   {"whole", &RelightServer::whole},
+        {"edits", &RelightServer::edits}};
+    const std::pair<const char*, Answer> posts[] = {
+        {"edit", &RelightServer::edit}, {"leave", &RelightServer::leave},       {"pointer", &RelightServer::pointer},
+        {"ask", &RelightServer::ask},   {"variable", &RelightServer::variable}, {"gather", &RelightServer::gather},
+        {"only", &RelightServer::only}, {"load", &RelightServer::load}};
     for (const auto& [path, answer] : gets) server_.get(path, later(answer));
     for (const auto& [path, answer] : posts) server_.post(path, later(answer));
-    server_.post("save", later(&Relight::save), kSaves);
+    server_.post("save", later(&RelightServer::save), kSaves);
   }
 
   HttpReply scene(const HttpQuestion&) { return jsonReply(relighting_.description()); }
@@ -272,7 +272,7 @@ int relightCommand(const RelightCommand& command) {
   const ThreadLimit threads(settings.resources.threads);
   Stats stats;
   try {
-    return Relight(command, settings, stats, log).run();
+    return RelightServer(command, settings, stats, log).run();
   } catch (const Stopped&) {
     return kDone;
   } catch (const std::runtime_error& e) {

@@ -132,7 +132,7 @@ class Relighting {
   void gather(const Step& step);
   void checkLinearity(const Step& step);
   ShotJob& jobFor(const EditState& edit, const std::string& variable = "");
-  std::string fileOfEdit(const EditState& edit) const;
+  std::string writeEdit(const EditState& edit) const;  ///< Returns the name of the file.
   void take(const Step& step, const Image& rows);
   std::shared_ptr<const DeepTile> outlineOf(size_t bucket, const DeepTile& tile);
   bool isNeededBesides(const Layer& layer, size_t bucket, size_t part) const;

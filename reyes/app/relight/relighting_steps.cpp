@@ -24,7 +24,7 @@ void Relighting::run(const Step& step) {
   }
 }
 
-std::string Relighting::fileOfEdit(const EditState& edit) const {
+std::string Relighting::writeEdit(const EditState& edit) const {
   const std::string file = (folder_.path() / "edit.rib").string();
   std::ofstream(file) << ribOf(edit, *editable_);
   return file;
@@ -35,7 +35,7 @@ ShotJob& Relighting::jobFor(const EditState& edit, const std::string& variable) 
   if (job_ && text == textOfJob_) return *job_;
   job_.reset();  // it gives the records back
   RenderSettings settings = settings_;
-  settings.input.edits.push_back(fileOfEdit(edit));
+  settings.input.edits.push_back(writeEdit(edit));
   job_ = ShotJob::open(files_, settings, stats_, log_);
   if (!job_) throw std::runtime_error("the edit cannot be applied");
   job_->prepareToShow(variable);
@@ -182,7 +182,7 @@ void Relighting::gather(const Step& step) {
              height = static_cast<float>(files_->dfb().shot().scene.options.yResolution);
   const PixelRect& p = step.pixels;
   RenderSettings settings = settings_;
-  settings.input.edits.push_back(fileOfEdit(step.edit));
+  settings.input.edits.push_back(writeEdit(step.edit));
   settings.picture.crop = {static_cast<float>(p.x0) / width, static_cast<float>(p.x1) / width,
                            static_cast<float>(p.y0) / height, static_cast<float>(p.y1) / height};
   settings.picture.output = (folder_.path() / fmt::format("gathered-{}.icf", gathered_.size())).string();
