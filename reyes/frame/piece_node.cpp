@@ -173,8 +173,9 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
 }
 
 std::shared_ptr<Pool> PieceNode::makePool(const PieceStack& stack) const {
-  // A vertex without motion and primitive variables takes eleven floats; each further key takes six and a box and a
-  // third, and a grid about as much as here without vertices.
+  // These are estimates, which decide how much memory the pool asks for at a time. A vertex takes eleven floats. Each
+  // motion key after the first takes six more, and the vertex's share of a tree of boxes (reyes/hide/blur_bounds.h), in
+  // which each level has a quarter of the boxes of the one below: 4/3 of a box. Primitive variables are added below.
   constexpr size_t kVertex_bytes = 44, kKey_bytes = 72, kGrid_bytes = 1088;
   const Object& o = context_.scene.objects[static_cast<size_t>(stack.object)];
   size_t vertex_bytes = kVertex_bytes + kKey_bytes * (o.keyTimes.size() - 1);

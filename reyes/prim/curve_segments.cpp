@@ -78,7 +78,7 @@ CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<i
   if (vertexCounts.empty()) throw PrimError("there are no curves");
   size_t vertices = 0;
   for (const int count : vertexCounts) vertices += static_cast<size_t>(std::max(0, count));
-  const std::vector<vec3> points = takePositions(params, vertices, true, problems);
+  const std::vector<vec3> points = takePositions(params, Count::Exactly, vertices, problems);
   Layout layout = LayoutMaker(cubic, basis.step, periodic).make(vertexCounts);
   segments_ = std::move(layout.segments);
   primvars = takePrimvars(params, layout.counts, problems);

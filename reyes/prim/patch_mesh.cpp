@@ -42,7 +42,7 @@ std::vector<vec3> takeHeights(const Param& heights, const Layout& mesh) {
 
 std::vector<vec3> takeControls(const ParamList& params, const Layout& mesh, Problems& problems) {
   const Param* heights = findParam(params, "Pz");
-  return heights ? takeHeights(*heights, mesh) : takePositions(params, mesh.controls(), true, problems);
+  return heights ? takeHeights(*heights, mesh) : takePositions(params, Count::Exactly, mesh.controls(), problems);
 }
 
 class BilinearMesh : public PatchMesh {

@@ -24,9 +24,10 @@ double latticeSphereArea(int nu, int nv) {
   return area;
 }
 
-class PointCloud : public Prim, public Scattered {
+/// What particles of all shapes have in common: a place and a width each.
+class Particles : public Prim, public Scattered {
  public:
-  PointCloud(std::vector<vec3> points, std::vector<Primvar> primvars)
+  Particles(std::vector<vec3> points, std::vector<Primvar> primvars)
       : Prim(std::move(primvars)), points_(std::move(points)), width_(widthOf(primvars_)) {}
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(points_.size()); }
@@ -75,10 +76,10 @@ class PointCloud : public Prim, public Scattered {
 
 /// Shapes with a plane, which is that of "N" or faces the eye.
 template <class Shape>
-class FlatPoints : public PointCloud {
+class FlatPoints : public Particles {
  public:
   bool isLone() const override { return true; }
-  using PointCloud::PointCloud;
+  using Particles::Particles;
 
   std::shared_ptr<const Prim> facing(const vec3& eye, const vec3& forward, bool perspective) const override {
     if (normalsOf(primvars_)) return nullptr;
@@ -135,7 +136,7 @@ class Disks : public FlatPoints<Disks> {
   /// Most particles are one cell: its corners, to the bit, are computed without loops and tables.
   void evaluateLattice(uint32_t patch, int nu, int nv, const float* u, const float* v,
                        SurfacePoints out) const override {
-    if (nu != 1 || nv != 1) return PointCloud::evaluateLattice(patch, nu, nv, u, v, out);
+    if (nu != 1 || nv != 1) return Particles::evaluateLattice(patch, nu, nv, u, v, out);
     static const float more = static_cast<float>(inflation(1, 1) - 1);
     evaluateDot(diskOf(patch), more, out);
   }
@@ -217,9 +218,9 @@ class Squares : public FlatPoints<Squares> {
 };
 
 /// Spheres: u runs around z, v from pole to pole.
-class Spheres : public PointCloud {
+class Spheres : public Particles {
  public:
-  using PointCloud::PointCloud;
+  using Particles::Particles;
 
   PatchInfo info(uint32_t) const override { return {false, 0}; }
 
@@ -265,7 +266,7 @@ std::string typeOf(const ParamList& params) {
 }  // namespace
 
 PrimPtr makePoints(const ParamList& params, Problems& problems) {
-  std::vector<vec3> points = takePositions(params, 1, false, problems);
+  std::vector<vec3> points = takePositions(params, Count::AtLeast, 1, problems);
   const size_t n = points.size();
   ParamList others = params;
   std::erase_if(others, [](const Param& p) { return p.name == "type"; });

@@ -133,7 +133,7 @@ class Polygons : public Prim {
   Decomposition parts_;
   std::vector<vec3> positions_;
   std::vector<int> vertices_;
-  std::vector<Middle> middles_;  ///< Indexed by corner.
+  std::vector<Middle> middles_;  ///< Sorted by corner.
 };
 
 void requireLoops(const std::vector<int>& loopCounts, size_t loops) {
@@ -152,7 +152,7 @@ PrimPtr makeGeneralPolygons(const std::vector<int>& loopCounts, const std::vecto
                             const PointKeys& keys) {
   const size_t used = requireFaces(vertexCounts, vertices);
   requireLoops(loopCounts, vertexCounts.size());
-  std::vector<vec3> positions = takePositions(params, used, false, problems);
+  std::vector<vec3> positions = takePositions(params, Count::AtLeast, used, problems);
   const PrimvarCounts counts{loopCounts.size(), positions.size(), positions.size(), vertices.size()};
   std::vector<Primvar> primvars = takePrimvars(params, counts, problems);
   // RISpec section 5.1: the normal of a face's plane is used where vertices have none of their own.

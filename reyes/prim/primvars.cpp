@@ -38,8 +38,9 @@ void splitTextureCoordinates(const Param& param, const std::vector<float>& value
   }
 }
 
-/// The points of an hpoint, which shaders take as such (RISpec 3.2, section 3.1). Rational patches weigh what is at
-/// their vertices by their own weights, which are those of a copy of Pw.
+/// Makes a point of each homogeneous point, because shaders take an hpoint for a point (RISpec 3.2, section 3.1). Its
+/// weights are dropped. Rational patches interpolate the points with the weights of their own Pw, so that a variable
+/// that is a copy of Pw is interpolated as Pw is.
 void divideByWeight(Primvar& p) {
   std::vector<float> points;
   points.reserve(p.values.size() / 4 * 3);
@@ -108,15 +109,15 @@ std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& 
   return out;
 }
 
-std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exact, Problems& problems) {
+std::vector<vec3> takePositions(const ParamList& params, Count count, size_t needed, Problems& problems) {
   const Param* p = findParam(params, "P");
   const Param* pw = p ? nullptr : findParam(params, "Pw");
   if (!p && !pw) throw PrimError("there are no positions: neither P nor Pw is given");
   const Param& given = p ? *p : *pw;
-  const size_t width = p ? 3 : 4, count = given.floats.size() / width;
-  if (given.floats.size() % width != 0 || count < least || (exact && count != least))
-    wrongPositionCount(p ? "P" : "Pw", given.floats.size(), least, width);
-  std::vector<vec3> points(p ? count : 0);
+  const size_t width = p ? 3 : 4, there = given.floats.size() / width;
+  if (given.floats.size() % width != 0 || there < needed || (count == Count::Exactly && there != needed))
+    wrongPositionCount(p ? "P" : "Pw", given.floats.size(), needed, width);
+  std::vector<vec3> points(p ? there : 0);
   if (pw) points = dividedByWeight(given, problems);
   for (size_t i = 0; i < points.size(); ++i) {
     if (p) points[i] = {given.floats[3 * i], given.floats[3 * i + 1], given.floats[3 * i + 2]};
@@ -127,7 +128,7 @@ std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exac
 
 std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count) {
   Problems unequalWeights;  // not reported here
-  const std::vector<vec3> points = takePositions(params, count, true, unequalWeights);
+  const std::vector<vec3> points = takePositions(params, Count::Exactly, count, unequalWeights);
   const Param* pw = findParam(params, "P") ? nullptr : findParam(params, "Pw");
   std::vector<vec4> out;
   for (size_t i = 0; i < points.size(); ++i) {

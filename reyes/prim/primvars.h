@@ -4,9 +4,10 @@
 
 namespace tomales {
 
-/// Returns "P", or "Pw" divided by w: at least `least` points, exactly that many if `exact`. Throws PrimError if there
-/// are fewer, or if a coordinate is not finite.
-std::vector<vec3> takePositions(const ParamList& params, size_t least, bool exact, Problems& problems);
+enum class Count { Exactly, AtLeast };
+/// Returns "P", or "Pw" divided by w. Throws PrimError if there are not as many points as are needed, or if a
+/// coordinate is not finite.
+std::vector<vec3> takePositions(const ParamList& params, Count count, size_t needed, Problems& problems);
 
 /// Returns "P" with weight 1, or "Pw" unchanged: exactly `count` homogeneous points. Throws PrimError like
 /// takePositions().

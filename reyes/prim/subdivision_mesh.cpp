@@ -222,7 +222,7 @@ PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& v
   const auto type = schemeOf(scheme);
   const size_t used = requireFaces(vertexCounts, vertices);
   requireSubdividable(type == OpenSubdiv::Sdc::SCHEME_LOOP ? 3 : 0xffff, vertexCounts, vertices);
-  Coarse mesh{type, vertexCounts, vertices, takePositions(params, used, false, problems), {}, {}};
+  Coarse mesh{type, vertexCounts, vertices, takePositions(params, Count::AtLeast, used, problems), {}, {}};
   const size_t vertexCount = mesh.positions.size();
   std::vector<Primvar> primvars =
       takePrimvars(params, {vertexCounts.size(), vertexCount, vertexCount, vertices.size()}, problems);
