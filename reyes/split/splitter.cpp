@@ -104,6 +104,46 @@ void Splitter::splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, i
       p->visits = static_cast<int64_t>(share(*p) / shares * static_cast<double>(std::max<int64_t>(budget_, 0)));
 }
 
+std::optional<Splitter::Measured> Splitter::measured(uint32_t patch, const UvRect& rect, int depth,
+                                                     const Known* known) {
+  Bound3 bare = known && known->bare ? *known->bare : undisplacedBound(object_, patch, rect);
+  if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
+    ++stats_.geometry.culled;
+    return std::nullopt;
+  }
+  const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
+  const float edgeLengths = size.u.length + size.v.length;
+  if (isStill() && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * edgeLengths) {
+    bare = size.probes.grown(edgeLengths);
+    if (view_.cannotBeSeen(bare)) return std::nullopt;
+  }
+  const Bound3 bound = bare.grown(object_.displacementBound);
+  const bool joins = !alone_ || depth > 0;
+  const auto [nu, nv] =
+      cells(size, edge_px_, view_.coarsening(patch, rect, bound), object_.attributes->binaryDice, joins);
+  const bool oneCell = flat_ && nu == 1 && nv == 1;
+  const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
+  return Measured{size, edgeLengths, bare, bound, view_.crossesEye(bare), nu, nv, reach_px};
+}
+
+SubPatch Splitter::pieceOf(uint32_t patch, const UvRect& rect, int depth, const Measured& m) const {
+  return {.object = index_,
+          .patch = patch,
+          .rect = rect,
+          .nu = m.nu,
+          .nv = m.nv,
+          .raster = view_.rasterOf(m.bound, m.reach_px),
+          .zMin = m.bound.lo.z,
+          .crossesEye = m.crossesEye,
+          .depth = depth};
+}
+
+SubPatch Splitter::oneCellOf(uint32_t patch, const UvRect& rect, int depth, const Measured& m) const {
+  SubPatch out = pieceOf(patch, rect, depth, m);
+  out.nu = out.nv = 1;
+  return out;
+}
+
 void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from, const Known* known,
                      std::vector<SubPatch>& out) {
   if (stopped()) return;
@@ -113,62 +153,21 @@ void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from,
   }
   --budget_;
   ++stats_.geometry.piecesVisited;
-  Bound3 bare = known && known->bare ? *known->bare : undisplacedBound(object_, patch, rect);
-  if (view_.cannotBeSeen(bare) || object_.shape().kept(patch, rect) == Kept::None) {
-    ++stats_.geometry.culled;
-    return;
-  }
-  const PatchSize size = known ? known->size : measure(object_, camera_, patch, rect);
-  const bool still = object_.keyTimes.size() == 1;
-  const float edgeLengths = size.u.length + size.v.length;
-  if (!(edgeLengths > 0.25f * from.edgeLengths)) from = {edgeLengths, depth};
-  if (still && depth >= kSlackDepth && glm::length(bare.size()) > kSlack * edgeLengths) {
-    bare = size.probes.grown(edgeLengths);
-    if (view_.cannotBeSeen(bare)) return;
-  }
-  const Bound3 bound = bare.grown(object_.displacementBound);
-  const bool crossesEye = view_.crossesEye(bare);
-  const float blur = view_.coarsening(patch, rect, bound);
-  const bool binary = object_.attributes->binaryDice;
-  const bool joins = !alone_ || depth > 0;
-  const auto [nu, nv] = cells(size, edge_px_, blur, binary, joins);
-  const bool oneCell = flat_ && nu == 1 && nv == 1;
-  const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
-  const auto piece = [&, nu = nu, nv = nv](bool coarse) {
-    return SubPatch{.object = index_,
-                    .patch = patch,
-                    .rect = rect,
-                    .nu = nu,
-                    .nv = nv,
-                    .raster = view_.rasterOf(bound, reach_px),
-                    .zMin = bound.lo.z,
-                    .crossesEye = crossesEye,
-                    .depth = depth,
-                    .coarse = coarse};
-  };
-  if (static_cast<int64_t>(nu) * nv <= gridSize_) {
-    // A piece that moves through the eye plane does so however small it is; it is seen while it stays in front.
-    if (crossesEye && !still) ++givenUp_.atEye;
-    if (!still || camera_.defocuses())
-      budget_ -= visits_.ofBlur(view_.rasterOf(bare, reach_px), object_.keyTimes.size());
-    if (std::max(nu, nv) > longest_ && !crossesEye)
-      cutAcross(patch, rect, depth + 1, nu, nv, out);
-    else if (depth == 0 && nu * nv <= kRound_cells && !crossesEye && view_.canBeRound(patch))
-      out.push_back(roundPiece(patch, rect, view_.rasterOf(bound, reach_px), bound.lo.z));
-    else
-      out.push_back(piece(false));
-  } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && visits_.grids(nu, nv) >= kGridsOfCoarse && !crossesEye &&
-             view_.isOfOneScale(bare) && visits_.isLargelySeen(view_.rasterOf(bound, reach_px)) &&
-             glm::length(bare.size()) <= kSlack * edgeLengths) {
-    // Halving shrinks such a piece and its bound as it should, so that the number of its grids can be estimated.
-    out.push_back(piece(true));
-  } else if (depth - from.depth >= kVainHalvings && !crossesEye) {
-    out.push_back(piece(false));
-    out.back().nu = out.back().nv = 1;
+  const std::optional<Measured> found = measured(patch, rect, depth, known);
+  if (!found) return;
+  const Measured& m = *found;
+  if (!(m.edgeLengths > 0.25f * from.edgeLengths)) from = {m.edgeLengths, depth};
+  if (static_cast<int64_t>(m.nu) * m.nv <= gridSize_) {
+    takeGrid(patch, rect, depth, m, out);
+  } else if (lazily_ && depth - start_ >= kHalvingsAtOnce && isEstimable(m)) {
+    out.push_back(pieceOf(patch, rect, depth, m));
+    out.back().coarse = true;
+  } else if (depth - from.depth >= kVainHalvings && !m.crossesEye) {
+    out.push_back(oneCellOf(patch, rect, depth, m));
   } else if (depth == kMaxDepth || !(hasMiddle(rect.u0, rect.u1) || hasMiddle(rect.v0, rect.v1))) {
-    takeSmallest(patch, rect, depth, bound, crossesEye, view_.rasterOf(bound, reach_px), out);
+    takeSmallest(patch, rect, depth, m, out);
   } else {
-    const bool longerInU = crossesEye ? size.u.length >= size.v.length : nu >= nv;
+    const bool longerInU = m.crossesEye ? m.size.u.length >= m.size.v.length : m.nu >= m.nv;
     const bool alongU = hasMiddle(rect.u0, rect.u1) && (longerInU || !hasMiddle(rect.v0, rect.v1));
     const auto [a, b] = halves(rect, alongU);
     split(patch, a, depth + 1, from, nullptr, out);
@@ -176,19 +175,31 @@ void Splitter::split(uint32_t patch, const UvRect& rect, int depth, Shrunk from,
   }
 }
 
-void Splitter::takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
-                            const Bound2& raster, std::vector<SubPatch>& out) {
-  if (object_.shape().info(patch).planar && !crossesEye)
-    out.push_back({.object = index_,
-                   .patch = patch,
-                   .rect = rect,
-                   .nu = 1,
-                   .nv = 1,
-                   .raster = raster,
-                   .zMin = bound.lo.z,
-                   .depth = depth});
+bool Splitter::isEstimable(const Measured& m) const {
+  return visits_.grids(m.nu, m.nv) >= kGridsOfCoarse && !m.crossesEye && view_.isOfOneScale(m.bare) &&
+         visits_.isLargelySeen(view_.rasterOf(m.bound, m.reach_px)) &&
+         glm::length(m.bare.size()) <= kSlack * m.edgeLengths;
+}
+
+void Splitter::takeGrid(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out) {
+  // A piece that moves through the eye plane does so however small it is; it is seen while it stays in front.
+  if (m.crossesEye && !isStill()) ++givenUp_.atEye;
+  if (!isStill() || camera_.defocuses())
+    budget_ -= visits_.ofBlur(view_.rasterOf(m.bare, m.reach_px), object_.keyTimes.size());
+  if (std::max(m.nu, m.nv) > longest_ && !m.crossesEye)
+    cutAcross(patch, rect, depth + 1, m.nu, m.nv, out);
+  else if (depth == 0 && m.nu * m.nv <= kRound_cells && !m.crossesEye && view_.canBeRound(patch))
+    out.push_back(roundPiece(patch, rect, view_.rasterOf(m.bound, m.reach_px), m.bound.lo.z));
   else
-    ++(depth == kMaxDepth && bound.lo.z < glm::length(bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
+    out.push_back(pieceOf(patch, rect, depth, m));
+}
+
+void Splitter::takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Measured& m,
+                            std::vector<SubPatch>& out) {
+  if (object_.shape().info(patch).planar && !m.crossesEye)
+    out.push_back(oneCellOf(patch, rect, depth, m));
+  else
+    ++(depth == kMaxDepth && m.bound.lo.z < glm::length(m.bound.size()) ? givenUp_.atEye : givenUp_.tooMany);
 }
 
 void Splitter::cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out) {

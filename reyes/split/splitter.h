@@ -51,20 +51,42 @@ class Splitter {
     int depth = 0;
   };
 
-  /// `known` may be null.
+  /// What decides whether a piece is halved.
+  struct Measured {
+    PatchSize size;
+    float edgeLengths;  ///< Sum of the lengths along u and along v.
+    Bound3 bare;        ///< Box in camera space before displacement.
+    Bound3 bound;       ///< The same after displacement.
+    bool crossesEye;
+    int nu, nv;      ///< Cells that the rate asks for.
+    float reach_px;  ///< How far the hider may push its border out.
+  };
+  /// Returns nothing for a piece that cannot be seen. `known` may be null.
+  std::optional<Measured> measured(uint32_t patch, const UvRect& rect, int depth, const Known* known);
+  SubPatch pieceOf(uint32_t patch, const UvRect& rect, int depth, const Measured& m) const;
+  SubPatch oneCellOf(uint32_t patch, const UvRect& rect, int depth, const Measured& m) const;
+
+  /// Takes a piece, or halves it. `known` may be null.
   void split(uint32_t patch, const UvRect& rect, int depth, Shrunk from, const Known* known,
              std::vector<SubPatch>& out);
 
+  /// Tells whether the number of grids of a piece can be estimated, because halving shrinks it and its bound as it
+  /// should. The piece may then stay coarse until a bucket needs it.
+  bool isEstimable(const Measured& m) const;
+
+  /// Takes a piece that one grid can hold.
+  void takeGrid(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out);
+
   /// Takes a piece of a plane that floats cannot divide as one cell, however large it is in the picture. None may reach
   /// through the eye plane.
-  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Bound3& bound, bool crossesEye,
-                    const Bound2& raster, std::vector<SubPatch>& out);
+  void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out);
 
   /// Cuts a long and narrow piece, which would be diced whole for the end that is seen. Its measured size holds for the
   /// parts.
   void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out);
 
   SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const;
+  bool isStill() const { return object_.keyTimes.size() == 1; }
   bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
 
   const Object& object_;
