@@ -23,24 +23,34 @@ void makeDraft(Scene& scene) {
   o.indirectSamples = kRays;
 }
 
-}  // namespace
+constexpr const char* kTextureMemory = "limits:texturememory";
+
+/// These set an option as if the scene had given it that value.
+void setWord(Options& options, const std::string& key, const std::string& value) {
+  if (!value.empty()) options.user[key] = wordParam(key.substr(key.find(':') + 1), value);
+}
+void setNumber(Options& options, const std::string& key, float value) {
+  Param& p = options.user[key] = {};
+  p.name = key.substr(key.find(':') + 1);
+  p.type = ValueType::Float;
+  p.floats = {value};
+}
 
 /// Raises the limit that a scene may set to 64 MB: the limits of old renderers are too small to be of use.
 void raiseTextureMemory(Options& options) {
   constexpr float kLeast_KB = 1 << 16;
-  const auto it = options.user.find("limits:texturememory");
+  const auto it = options.user.find(kTextureMemory);
   if (it != options.user.end()) it->second.floats = {std::max(kLeast_KB, it->second.number(0))};
 }
 
 /// Sets the limit unless the scene asks for less.
 void limitTextures(Options& options, int64_t limit_bytes) {
-  Param& p = options.user["limits:texturememory"];
   const float most_KB = static_cast<float>(textureShare(limit_bytes)) / 1024;
-  const float asked_KB = p.number(most_KB);
-  p = {};
-  p.name = "texturememory";
-  p.floats = {std::min(asked_KB, most_KB)};
+  const Param* asked = findParam(options.user, kTextureMemory);
+  setNumber(options, kTextureMemory, std::min(asked ? asked->number(most_KB) : most_KB, most_KB));
 }
+
+}  // namespace
 
 RaySettings raySettings(const RenderSettings& settings, const Options& options) {
   RaySettings out{settings.light.hitList};
@@ -57,22 +67,12 @@ bool tracesFullGeometry(const RenderSettings& settings) {
   return settings.light.fullGeometry.value_or(settings.light.gi && settings.light.gi->fullGeometry);
 }
 
-/// Sets an option as if the scene had given it that string.
-void setWord(Options& options, const std::string& key, const std::string& value) {
-  if (!value.empty()) options.user[key] = wordParam(key.substr(key.find(':') + 1), value);
-}
-
 void applyOverrides(Scene& scene, const RenderSettings& settings) {
   raiseTextureMemory(scene.options);
   setWord(scene.options, "shade:specular", settings.picture.specular);
   setWord(scene.options, "shade:arealight", settings.picture.arealight);
-  if (settings.resources.textureMemory) {
-    Param kilobytes;
-    kilobytes.name = "texturememory";
-    kilobytes.type = ValueType::Float;
-    kilobytes.floats = {static_cast<float>(*settings.resources.textureMemory >> 10)};
-    scene.options.user["limits:texturememory"] = kilobytes;
-  }
+  if (settings.resources.textureMemory)
+    setNumber(scene.options, kTextureMemory, static_cast<float>(*settings.resources.textureMemory >> 10));
   if (!settings.resources.textureCache.empty())
     scene.options.searchPaths["texturecache"] = settings.resources.textureCache;
   Options& o = scene.options;
