@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-void buildAtlas(CLI::App& app, Invocation& in, int& code) {
+void buildPhotons(CLI::App& app, Invocation& in, int& code) {
   CLI::App* photons = app.add_subcommand("photons", "Photon maps of a scene, one file for each group of objects");
   photons->add_option("-o", in.render.picture.output, "Folder to write to")->required()->type_name("FOLDER");
   photons->add_option("--photons", in.render.light.photons, "Photons to emit")
@@ -17,7 +17,9 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   addRunOptions(*photons, in.render);
   photons->add_option("SCENE", in.render.input.files, "RIB files")->required();
   photons->callback([&] { code = photonsCommand(in.render); });
+}
 
+void buildIrradiance(CLI::App& app, Invocation& in, int& code) {
   CLI::App* irradiance =
       app.add_subcommand("irradiance", "Irradiance (W/m2) and area at photons: point clouds of disks");
   irradiance->add_option("FILES", in.irradiance.inputs, "Photon maps, or folders of them")->required();
@@ -27,7 +29,9 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
   irradiance->add_option("--every", in.irradiance.settings.every, "One estimate for so many photons")
       ->check(CLI::Range(1, 100000));
   irradiance->callback([&] { code = irradianceCommand(in.irradiance); });
+}
 
+void buildBrickmake(CLI::App& app, Invocation& in, int& code) {
   CLI::App* bricks = app.add_subcommand("brickmake", "Brick maps of point clouds");
   bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
   bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
@@ -45,7 +49,9 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       ->check(between(0.1, 100.0));
   bricks->add_flag("--ignorenormals", in.brickmake.settings.ignoreNormals, "The data fill a volume");
   bricks->callback([&] { code = brickmakeCommand(in.brickmake); });
+}
 
+void buildView(CLI::App& app, Invocation& in, int& code) {
   CLI::App* view = app.add_subcommand(
       "view", "A picture of a point cloud, photon map, brick map, or of the records of an irradiance cache");
   view->add_option("FILE", in.view.input)->required();
@@ -59,7 +65,9 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
       *view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH",
       "Resolution in pixels");
   view->callback([&] { code = viewCommand(in.view); });
+}
 
+void buildConvert(CLI::App& app, Invocation& in, int& code) {
   CLI::App* convert = app.add_subcommand(
       "convert",
       "Point clouds from and to PLY, for other programs; the records of an irradiance cache as a point cloud");
@@ -72,6 +80,12 @@ void buildAtlas(CLI::App& app, Invocation& in, int& code) {
 
 }  // namespace
 
-void addAtlasCommands(CLI::App& app, Invocation& in, int& code) { buildAtlas(app, in, code); }
+void addAtlasCommands(CLI::App& app, Invocation& in, int& code) {
+  buildPhotons(app, in, code);
+  buildIrradiance(app, in, code);
+  buildBrickmake(app, in, code);
+  buildView(app, in, code);
+  buildConvert(app, in, code);
+}
 
 }  // namespace tomales

@@ -183,39 +183,50 @@ std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
   return out;
 }
 
-void buildBatch(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("batch", "Frames as tasks of a plan, by processes here or on a Slurm cluster");
-  BatchCommand& b = in.batch;
+/// Options that say which tasks a plan has.
+void addTasks(CLI::App& c, BatchCommand& b) {
   RenderSettings& s = b.plan.render;
-  addParsed(*c, "-o", s.picture.output, parseOutput, pictureNames(),
+  addParsed(c, "-o", s.picture.output, parseOutput, pictureNames(),
             "As of render; # stands for the number of the frame");
-  addParsed(*c, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  addParsed(c, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
   addParsed(
-      *c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
+      c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
       "Hide and gather each frame once, shade it in tiles, and join them")
       ->needs("-o");
-  c->add_option("--share-records", b.plan.sharedRecords,
-                "Frames in a row that share the records of gathered light, for less flicker: each adds to those of the "
-                "one before (default 1)")
+  c.add_option("--share-records", b.plan.sharedRecords,
+               "Frames in a row that share the records of gathered light, for less flicker: each adds to those of the "
+               "one before (default 1)")
       ->check(CLI::Range(1, 100000))
       ->needs("-o");
-  c->add_option("--photon-parts", b.plan.photonParts,
-                "Trace the photons of --gi atlas, and make its maps, in so many tasks (default: one for each million)")
+  c.add_option("--photon-parts", b.plan.photonParts,
+               "Trace the photons of --gi atlas, and make its maps, in so many tasks (default: one for each million)")
       ->check(CLI::Range(1, kMostParts));
-  c->add_option("--plan", b.folder, "Folder of the plan, its states and logs (default: SCENE.batch)")
+  c.add_option("--plan", b.folder, "Folder of the plan, its states and logs (default: SCENE.batch)")
       ->type_name("FOLDER");
-  c->add_flag("--plan-only", b.planOnly, "Make the plan, to be read or edited, and run nothing");
-  c->add_option_function<std::string>(
+  c.add_flag("--plan-only", b.planOnly, "Make the plan, to be read or edited, and run nothing");
+}
+
+/// Options that say where tasks run.
+void addEngine(CLI::App& c, BatchCommand& b) {
+  c.add_option_function<std::string>(
        "--engine", [&b](const std::string& name) { b.onSlurm = name == "slurm"; },
        "Where tasks run: local (here, the default) or slurm")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->type_name("local|slurm");
-  c->add_option("-j", b.processes, "Most tasks at a time (default: one on each processor; slurm: no limit)")
+  c.add_option("-j", b.processes, "Most tasks at a time (default: one on each processor; slurm: no limit)")
       ->check(CLI::Range(1, 100000));
-  c->add_option("-t", b.slurm.cpus, "Threads of each task (default 1)")->check(CLI::Range(1, 4096));
-  c->add_option("--partition", b.slurm.partition, "Partition of Slurm (default: the cluster's)");
-  c->add_option("--time", b.slurm.time, "Most time of a task, as sbatch takes it (default: the partition's)");
-  c->add_option("--mem", b.slurm.memory, "Memory of a task, as sbatch takes it (default: the partition's)");
+  c.add_option("-t", b.slurm.cpus, "Threads of each task (default 1)")->check(CLI::Range(1, 4096));
+  c.add_option("--partition", b.slurm.partition, "Partition of Slurm (default: the cluster's)");
+  c.add_option("--time", b.slurm.time, "Most time of a task, as sbatch takes it (default: the partition's)");
+  c.add_option("--mem", b.slurm.memory, "Memory of a task, as sbatch takes it (default: the partition's)");
+}
+
+void buildBatch(CLI::App& app, Invocation& in, int& code) {
+  CLI::App* c = app.add_subcommand("batch", "Frames as tasks of a plan, by processes here or on a Slurm cluster");
+  BatchCommand& b = in.batch;
+  RenderSettings& s = b.plan.render;
+  addTasks(*c, b);
+  addEngine(*c, b);
   c->add_flag("--json", b.json, "Report as JSON");
   addParsed(*c, "--html", b.page, parseNamed(".html"), "FILE.html", "Write the report as a page with small pictures");
   const auto picture = added(*c, [&] { addFrameSize(*c, s); });
