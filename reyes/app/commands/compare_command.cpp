@@ -1,3 +1,5 @@
+#include "reyes/app/commands/compare_command.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,7 +7,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "reyes/app/commands/info.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/image.h"
 

@@ -1,4 +1,4 @@
-// `tomales info` and `tomales compare`: the contents of a file, and the difference of two pictures.
+// `tomales info`: the contents of a file.
 #pragma once
 #include <string>
 
@@ -14,6 +14,5 @@ struct InfoCommand {
 
 /// Prints to standard output, as JSON or as text; returns the exit code.
 int infoCommand(const InfoCommand& command);
-int compareCommand(const std::string& test, const std::string& reference, const std::string& differenceFile, bool json);
 
 }  // namespace tomales

@@ -1,8 +1,5 @@
 #include "reyes/app/commands/shade.h"
 
-#include <filesystem>
-
-#include "reyes/app/commands/render.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/app/frame/granted.h"
 #include "reyes/app/frame/shot.h"
@@ -33,10 +30,5 @@ int runOnShot(const RenderSettings& asked, void (ShotJob::*work)()) {
 
 int shadeCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::shadePicture); }
 int gatherCommand(const RenderSettings& settings) { return runOnShot(settings, &ShotJob::gatherIrradiance); }
-
-int relightFirst(RelightCommand command) {
-  if (std::filesystem::path(command.render.input.files.front()).extension() != ".dfb") command.hide = hideCommand;
-  return relightCommand(command);
-}
 
 }  // namespace tomales

@@ -1,13 +1,10 @@
 // `tomales shade` and `tomales gather`: make a picture, or an irradiance cache, from the .dfb of a shot.
 #pragma once
-#include "reyes/app/relight/relight.h"
 #include "reyes/app/settings.h"
 
 namespace tomales {
 
 int shadeCommand(const RenderSettings& settings);
 int gatherCommand(const RenderSettings& settings);
-/// Serves the page of a shot; of a RIB it hides the first frame before.
-int relightFirst(RelightCommand command);
 
 }  // namespace tomales

@@ -1,5 +1,6 @@
 #include "reyes/app/commands/usage.h"
 
+#include "reyes/app/commands/compare_command.h"
 #include "reyes/app/commands/completion.h"
 #include "reyes/app/commands/list.h"
 #include "reyes/image.h"

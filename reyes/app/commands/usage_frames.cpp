@@ -2,6 +2,7 @@
 
 #include "reyes/app/chart/stability.h"
 #include "reyes/app/chart/sweeps.h"
+#include "reyes/app/commands/relight_first.h"
 #include "reyes/app/commands/render.h"
 #include "reyes/app/commands/shade.h"
 #include "reyes/base/deep_stack.h"
