@@ -9,7 +9,7 @@
 
 #include "gi/services.h"
 #include "reyes/base/plugin_trust.h"
-#include "reyes/base/search_path.h"
+#include "reyes/base/standard_folders.h"
 #include "reyes/base/trust.h"
 
 namespace tomales {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "reyes/base/process.h"
-#include "reyes/base/search_path.h"
+#include "reyes/base/standard_folders.h"
 
 namespace tomales {
 namespace {

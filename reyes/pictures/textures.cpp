@@ -12,6 +12,7 @@
 #include <shared_mutex>
 #include <utility>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/input_file.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
+#include "reyes/base/standard_folders.h"
 #include "reyes/rib/reader.h"
 #include "reyes/rib/zip_member.h"
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "reyes/base/search_path.h"
+#include "reyes/base/standard_folders.h"
 #include "reyes/rib/refusals.h"
 #include "reyes/rib/request_table.h"
 #include "reyes/rib/ris.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/search_path.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/base/text.h"

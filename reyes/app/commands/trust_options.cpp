@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "reyes/app/commands/options.h"
+#include "reyes/base/standard_folders.h"
 
 namespace tomales {
 namespace {

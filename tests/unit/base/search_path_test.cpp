@@ -1,4 +1,4 @@
-#include "reyes/base/search_path.h"
+#include "reyes/base/file_guesses.h"
 
 #include <gtest/gtest.h>
 
