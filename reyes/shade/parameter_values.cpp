@@ -86,7 +86,7 @@ TmType tmTypeOf(ValueType type) {
 }
 
 const char* typeName(int32_t type) {
-  return type >= TM_FLOAT && type <= TM_MATRIX ? nameOf(valueTypeOf(type)) : "unknown type";
+  return type >= TM_FLOAT && type <= TM_MATRIX ? nameOf(valueTypeOf(type)).data() : "unknown type";
 }
 
 int floatsOf(int32_t type) { return type == TM_STRING ? 0 : floatsPerValue(valueTypeOf(type)); }
