@@ -19,10 +19,9 @@ struct GatherSettings {
   float maxError = 1;                         ///< Factor on the error that smoothRadius allows.
   int depth = 1;                              ///< Diffuse bounces between the eye and the hits.
   bool indirect = false;                      ///< The shaders of the hits ask for indirect light in turn.
-  bool mirrored = true;                       ///< The same as ShadeContext::specularRaysSeeLights.
-  std::string
-      subset{};  ///< The sets of objects that the rays see; empty for those of the object's grouping:tracesubset.
-  std::optional<HemisphereQuery> asked{};  ///< The question of a shader; empty for an indirect light.
+  bool specularRaysSeeLights = true;          ///< The same as in ShadeContext.
+  std::string subset{};                       ///< The sets that the rays see; empty: the object's grouping:tracesubset.
+  std::optional<HemisphereQuery> asked{};     ///< The question of a shader; empty for an indirect light.
   bool operator==(const GatherSettings&) const = default;
 
   /// True for occlusion instead of light: E/pi is the uncovered share of the hemisphere, and no hit is shaded.
@@ -49,8 +48,8 @@ struct KnownLight {
 
 /// Returns the highlights that diffuse rays bring. Where photons bring the light of lamps by mirrors and glass,
 /// highlights of these would bring it again.
-inline HitHighlights highlightsOfHits(bool mirrored) {
-  return mirrored ? HitHighlights::OfSpecular : HitHighlights::None;
+inline HitHighlights highlightsOfHits(bool specularRaysSeeLights) {
+  return specularRaysSeeLights ? HitHighlights::OfSpecular : HitHighlights::None;
 }
 
 /// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.

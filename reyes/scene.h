@@ -63,7 +63,7 @@ struct ShadeGroup {
   std::shared_ptr<const Attributes> attributes;
   mat4 cameraFromObject{1.0f};
   std::vector<Primvar> primvars;  ///< Layout only: name, storage, type, width; no values.
-  int exampleObject = -1;         ///< Some object of the group; -1 if the scene keeps none of them.
+  int exampleObject = -1;         ///< Some object of the group; -1 if that one was dropped.
   SourceLoc where{};              ///< Place of its first object, for messages.
   /// Transforms positions of the group at shutter open to those at a time, with the camera fixed.
   Motion currentFromOpen{};

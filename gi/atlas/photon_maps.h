@@ -7,7 +7,7 @@
 namespace tomales {
 
 /// Increase this when the same inputs begin to make other files.
-constexpr uint32_t kAtlasMethod = 13;
+constexpr uint32_t kAtlasMethod = 14;
 
 /// A photon as a map holds it.
 struct MapPhoton {

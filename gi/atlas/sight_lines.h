@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-constexpr float kSightLift = 0.1f;  ///< Height over the surface of the rays along it, in their lengths.
+constexpr float kSightLift = 0.1f;  ///< Height over the surface of the rays along it, as a share of their length.
 
 /// Sees walls: what stands on a surface at more than 60 degrees. `rays` must outlive the result.
 SightAlongSurface sightAlongSurfaces(const RayScene& rays);

@@ -11,16 +11,18 @@ constexpr uint32_t kBrickVersion = 4;
 /// Tells whether the nodes are one tree, whose last node is the root, that has the number of levels that it says.
 bool isTree(const BrickTree& tree) {
   std::vector<int> level(tree.nodes.size(), -1);
+  int deepest = 0;
   if (!level.empty()) level.back() = 0;
   for (size_t i = tree.nodes.size(); i-- > 0;) {
-    if (level[i] < 0 || level[i] > tree.deepest) return false;
+    if (level[i] < 0) return false;
+    deepest = std::max(deepest, level[i]);
     for (const int32_t c : tree.nodes[i].child) {
       if (c == -1) continue;
       if (c < 0 || static_cast<size_t>(c) >= i || level[static_cast<size_t>(c)] >= 0) return false;
       level[static_cast<size_t>(c)] = level[i] + 1;
     }
   }
-  return true;
+  return deepest == tree.deepest;
 }
 
 bool sound(const BrickTree& tree) {

@@ -54,7 +54,7 @@ CacheKey cacheKeyFor(const GiState& state, int group, const IndirectQuery& query
   key.gather.indirect = bouncesFor(state, query) > 1;
   if (settings.mode == GiMode::Atlas) {
     key.gather.light = settings.storesDirect ? Illumination::Stored : Illumination::LightsAndStored;
-    key.gather.mirrored = attributes.photon.causticMap.empty();
+    key.gather.specularRaysSeeLights = attributes.photon.causticMap.empty();
   }
   return key;
 }

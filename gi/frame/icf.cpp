@@ -22,9 +22,10 @@ template <class A>
 void fields(A& a, CacheKey& x) {
   auto& [cache, gather] = x;
   auto& [errorFunction, kappa, maxPixels, minPixels, minWeight] = cache;
-  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, mirrored, subset, asked] = gather;
+  auto& [samples, maxDistance, seed, light, curvature, maxError, depth, indirect, specularRaysSeeLights, subset,
+         asked] = gather;
   each(a, errorFunction, kappa, maxPixels, minPixels, minWeight, samples, maxDistance, seed, light, curvature, maxError,
-       depth, indirect, mirrored, subset, asked);
+       depth, indirect, specularRaysSeeLights, subset, asked);
 }
 
 template <class A>

@@ -22,7 +22,7 @@ uint32_t hashOf(const std::optional<HemisphereQuery>& q) {
            : 0;
 }
 
-/// Names what the records of a cache say at a place, as long as none comes or goes.
+/// Hashes what the records of a cache say at a place, as long as none comes or goes.
 uint64_t hashOf(const GiState& state, const PreparedCache& prepared, const IrradiancePlace& at) {
   const struct {
     vec3 position, normal, shadingNormal;
@@ -59,7 +59,7 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
           point.time,
           point.drift,
           static_cast<uint32_t>(settings.light),
-          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.mirrored) << 1,
+          static_cast<uint32_t>(settings.indirect) | static_cast<uint32_t>(!settings.specularRaysSeeLights) << 1,
           hashOf(settings.subset),
           state.settings.mode == GiMode::Radiosity,
           hashOf(settings.asked)};

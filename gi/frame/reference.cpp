@@ -142,7 +142,7 @@ ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, i
   out.diffuseLimit = bounces;
   out.highlights = HitHighlights::All;
   out.onlyLightGroup = context.onlyLightGroup;
-  if (!state.focusing.empty()) out.groupsWithCaustics = &state.focusing;
+  if (!state.groupsWithCaustics.empty()) out.groupsWithCaustics = &state.groupsWithCaustics;
   out.auditPaths = context.auditPaths;
   return out;
 }

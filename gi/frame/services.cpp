@@ -171,7 +171,8 @@ void GiServices::setHitRadianceSource(HitRadianceSource source) { impl_->hitRadi
 void GiServices::setPhotonPasses(PhotonPasses passes) {
   impl_->passes = std::move(passes);
   if (!impl_->passes->specularFirstOnly) return;
-  for (const ShadeGroup& g : impl_->scene.groups) impl_->focusing.push_back(isSpecularForPhotons(*g.attributes));
+  for (const ShadeGroup& g : impl_->scene.groups)
+    impl_->groupsWithCaustics.push_back(isSpecularForPhotons(*g.attributes));
 }
 
 void GiServices::reportAtlas(Stats& stats) const {

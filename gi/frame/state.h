@@ -39,7 +39,7 @@ struct GiState {
   std::optional<PhotonPasses> passes{};       ///< Empty: no photons are counted.
   std::unique_ptr<MeasuredLight> measured{};  ///< Written by measureLight(), frozen while shading.
   /// Indexed by group: 1 if photons, and not paths, bring the light of lamps and skies by its mirrors and glass.
-  std::vector<uint8_t> focusing{};
+  std::vector<uint8_t> groupsWithCaustics{};
   std::vector<std::string> groups{};    ///< The groups of lights whose shares records hold; empty: none.
   std::vector<vec3> gains{};            ///< One for each of these groups; empty if all are 1.
   std::vector<vec3> gainsOfNew{};       ///< The same for light that is gathered while shading.

@@ -100,8 +100,8 @@ void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* f
 void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
   context.illumination = settings_.light;
-  context.specularRaysSeeLights = settings_.mirrored;
-  context.highlights = highlightsOfHits(settings_.mirrored);
+  context.specularRaysSeeLights = settings_.specularRaysSeeLights;
+  context.highlights = highlightsOfHits(settings_.specularRaysSeeLights);
   // Mirrors and glass show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
   scratch_.question.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;

@@ -13,7 +13,9 @@ bool holds(const Bound3& b, const vec3& p) { return b.lo == glm::min(b.lo, p) &&
 }  // namespace
 
 CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSettings& settings)
-    : tree_(std::move(photons)), power_(powerOffset(tree_.photons().channels)), radius_(tree_.photons().count()) {
+    : tree_(std::move(photons)),
+      power_(surfacePowerOffset(tree_.photons().channels)),
+      radius_(tree_.photons().count()) {
   CHECK_GE(power_, 0);
   const float reach = reachOf(settings, tree_.photons().bound());
   const auto most = static_cast<size_t>(settings.nearest) + 1;  // the photon itself is one

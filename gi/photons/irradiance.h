@@ -23,13 +23,14 @@ inline constexpr const char* kPathPower = "pathpower";
 /// Channels of photons on surfaces, in W. kIndirectPower leaves out photons that came straight from lights, and gives
 /// "indirect" (W/m2).
 inline constexpr const char *kPower = "power", *kIndirectPower = "indirectpower";
-/// Returns the place of the photons' power, three floats; -1 if they have none and are no photons.
-inline int powerOffset(const std::vector<CloudChannel>& channels) {
-  return std::max(
-      {offsetOf(channels, kPathPower, 3), offsetOf(channels, kPower, 3), offsetOf(channels, kIndirectPower, 3)});
+/// Returns the place of the power of photons on surfaces, three floats; -1 if they have none.
+inline int surfacePowerOffset(const std::vector<CloudChannel>& channels) {
+  return std::max(offsetOf(channels, kPower, 3), offsetOf(channels, kIndirectPower, 3));
 }
-/// Throws FileError unless a file has one of these channels of photons on surfaces.
-void requirePhotons(const PointFile& file);
+/// Returns the place of the power of photons on surfaces or in media; -1 if they are no photons.
+inline int powerOffset(const std::vector<CloudChannel>& channels) {
+  return std::max(offsetOf(channels, kPathPower, 3), surfacePowerOffset(channels));
+}
 inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Sums over a part of the picture.

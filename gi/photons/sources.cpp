@@ -3,6 +3,7 @@
 #include "gi/photons/emissive_photons.h"
 #include "gi/photons/light_photons.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/rng.h"
 
 namespace tomales {
 namespace {

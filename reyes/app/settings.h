@@ -86,7 +86,7 @@ struct QualitySettings {
   double timeBudget_s = 0;   ///< Time that a frame may take; 0: as long as its settings ask.
   double reading_s = 0;      ///< Time that reading the frame has taken; it counts in timeBudget_s.
   std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
-  std::string animationSettings;                     ///< A file that keeps these settings for other runs; empty: none.
+  std::string animationSettings;                ///< A file that keeps these settings for other runs; empty: none.
   int auditEvery = 10;      ///< Frames with settings of pilots whose number this divides are audited; 0: none.
   bool isHeld = false;      ///< This frame has settings that were found on others.
   bool isPilot = false;     ///< Only settings are wanted of this frame, and no picture.

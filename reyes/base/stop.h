@@ -10,7 +10,7 @@ inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed);
 /// Asks for a stop. With `wanted` false it takes the wish back, as tests do.
 void requestStop(bool wanted = true);
 
-/// Tells whether the owner of such a flag wishes that work ends; null: nobody can.
+/// Tells whether there is a flag and it is set. Whoever owns it sets it to have work end.
 inline bool isSet(const std::atomic<bool>* cancelled) {
   return cancelled && cancelled->load(std::memory_order_relaxed);
 }

@@ -10,7 +10,8 @@ namespace tomales {
 /// single precision, and each rounds by up to 2^-24 = 6e-8.
 constexpr float kInterpolatedDepthError = 4e-7f;
 /// Relative difference of depth keys within which cells of two grids may be one surface. Their vertices come by
-/// different ways through evaluation, displacement and projection, so that far more roundings add up: 170 of 6e-8.
+/// different ways through evaluation, displacement and projection, so far more roundings add up. Chosen as some
+/// twenty times the error above.
 constexpr float kJoinedDepthError = 1e-5f;
 
 /// Returns the error bound of a depth key. It is above 0, because vertices lie on the lattice and numbers are floats.

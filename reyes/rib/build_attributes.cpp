@@ -134,7 +134,7 @@ void attribute(GraphicsState& s, const Request& r) {
       s.scope.lightsCastShadows = text ? p.strings[0] == "on" : p.number(0) != 0;
     } else {
       s.scope.edit().user[key] = p;
-      // "identifier:shadinggroup" is for Cryptomatte (reyes/frame/write_frame.cpp)
+      // "identifier:shadinggroup" is for Cryptomatte (reyes/frame/matte_names.cpp)
       if (category != "user" && key != "identifier:shadinggroup") warnOfIgnored(s, r, key);
     }
   }

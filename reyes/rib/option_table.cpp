@@ -78,9 +78,10 @@ bool shutterOffset(GraphicsState& s, const Request&, const Param& p) {
   return true;
 }
 
-/// The word of BMRT; that of Tomales wins, wherever it stands.
+/// The word of BMRT. That of Tomales wins, wherever it stands: its parameter has another name.
 bool prmanSpecular(GraphicsState& s, const Request&, const Param& p) {
-  s.globals.options.user.try_emplace("shade:specular", wordParam("specular", p.number(0) != 0 ? "prman" : "rispec"));
+  const auto [it, isNew] = s.globals.options.user.try_emplace("shade:specular");
+  if (isNew || it->second.name == p.name) it->second = wordParam(p.name, p.number(0) != 0 ? "prman" : "rispec");
   return true;
 }
 

@@ -9,7 +9,11 @@ namespace {
 
 using Found = std::optional<std::string>;
 
-std::string text(const Param& p) { return p.type == ValueType::String ? wordOf(&p) : fmt::format("{}", p.number(0)); }
+/// Returns the first of its strings, or all of its numbers.
+std::string text(const Param& p) {
+  if (p.type == ValueType::String) return wordOf(&p);
+  return p.ints.empty() ? fmt::format("{}", fmt::join(p.floats, " ")) : fmt::format("{}", fmt::join(p.ints, " "));
+}
 
 Found text(const UserParams& all, const std::string& key) {
   const Param* p = findParam(all, key);

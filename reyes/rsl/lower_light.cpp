@@ -69,9 +69,17 @@ void Lowering::gather(const Stmt& s) {
   });
 }
 
+int Lowering::lightsOf(const Expr& e) {
+  int sum = e.function ? lightsOf(*e.function->body) : 0;
+  for (const ExprPtr& part : e.args) sum += lightsOf(*part);
+  return sum;
+}
+
 int Lowering::lightsOf(const Stmt& s) {
   if (s.kind == StmtKind::Illuminate || s.kind == StmtKind::Solar) return 1;
+  if (s.kind == StmtKind::Define) return 0;
   int sum = 0, most = 0;
+  for (const ExprPtr& e : s.exprs) sum += e ? lightsOf(*e) : 0;
   for (const StmtPtr& inner : s.body) {
     const int lights = lightsOf(*inner);
     sum += lights;
@@ -85,13 +93,18 @@ void Lowering::illuminate(const Stmt& s) {
   const int32_t from = value(*s.exprs[0]), L = global(Global::L);
   const int32_t ray = compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple);
   const bool cone = s.exprs.size() > 1;
-  if (!cone || !shinesFromMany_) copy(L, ray);
+  // A cone gives the direction where it shines. Elsewhere another one's stays; where there is none yet, it has to be
+  // some direction all the same, as surfaces divide by its length.
+  const auto whereNone = [&] {
+    return compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
+  };
+  copy(L, cone && shinesFromMany_ ? whereNone() : ray);
   if (!cone) return statement(*s.body[0]);
   const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
   const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {ray}), axis});
   const int32_t inside = compute(Op::LessEqual, {compute(Op::Cos, {angle}, Shape::Number), cosine});
   ifElse(inside, block([&] {
-           if (shinesFromMany_) copy(L, ray);  // outside of this cone, another one's direction stays
+           if (shinesFromMany_) copy(L, ray);
            statement(*s.body[0]);
          }),
          {});

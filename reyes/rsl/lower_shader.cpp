@@ -253,7 +253,7 @@ void Lowering::statement(const Stmt& s) {
       jump(s);
       break;
     case StmtKind::Return: {
-      const Inlined& function = functions_.back();
+      const Inlined function = functions_.back();  // a call in the expression may move the list
       if (!s.exprs.empty() && s.exprs[0]) copy(function.result, value(*s.exprs[0], function.type));
       emit(Op::Leave, {}, {}).extra = function.label;
       break;

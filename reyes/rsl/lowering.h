@@ -63,6 +63,7 @@ class Lowering {
   void illuminate(const Stmt& s);
   /// Returns how many places from which a light shines may count at one point; those of a loop count twice.
   static int lightsOf(const Stmt& s);
+  static int lightsOf(const Expr& e);
   void solar(const Stmt& s);
   void gather(const Stmt& s);
 

@@ -94,6 +94,11 @@ bool hasInput(const TmShader& shader, std::string_view name) {
                      [&](const TmParamDecl& d) { return !isOutput(d) && d.name == name; });
 }
 
+/// Tells whether the shader computes this value itself: neither the scene nor a constant has given it.
+bool isMark(const ParameterValue& v) {
+  return v.strings.empty() ? !v.floats.empty() && std::isnan(v.floats[0]) : v.strings[0] == kComputedText;
+}
+
 /// Binds one shader; `warn` reports problems of a parameter.
 class Binding {
  public:
@@ -141,7 +146,7 @@ class Binding {
     }
     ParameterValue parameter = valueOf(decl, param);
     if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE) {
-      if (param || !hasComputedDefault(decl))
+      if (!isMark(parameter))
         bound_.roleValues.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
       else
         warn("light-value", decl.name,

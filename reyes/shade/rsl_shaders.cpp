@@ -14,6 +14,7 @@
 
 #include "reyes/base/input_file.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/text.h"
 #include "reyes/shade.h"
 #include "reyes/shader_registry.h"
 
@@ -126,11 +127,6 @@ Names& names() {
   return all;
 }
 
-std::string lowered(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& folders) {
   std::vector<std::string> out;
   std::error_code none;
@@ -152,7 +148,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
       if (names().has(file.string(), name)) out.push_back(file.string());
     // Some systems do not distinguish capitals in file names, and scenes come from there.
     for (const fs::path& file : here)
-      if (lowered(file.stem().string()) == lowered(name)) out.push_back(file.string());
+      if (lowerCase(file.stem().string()) == lowerCase(name)) out.push_back(file.string());
   }
   return out;
 }
@@ -201,7 +197,7 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
     }
     const TmShaderLibrary& library = *compiled->library();
     // A file with one shader of another name is meant if a request names the file.
-    const bool only = library.count == 1 && lowered(fs::path(file).stem().string()) == lowered(shaderName);
+    const bool only = library.count == 1 && lowerCase(fs::path(file).stem().string()) == lowerCase(shaderName);
     std::string others;
     for (int32_t k = 0; k < library.count; ++k) {
       const TmShader* s = library.shaders[k];

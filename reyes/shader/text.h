@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -62,18 +61,45 @@ std::string format(const std::string& pattern, const Values&... values) {
   return formatTexts(pattern, {text_detail::written(values)...});
 }
 
-/// Tells whether a regular expression is so long, or repeats so often ("((a{255}){255}){255}"), that to prepare it
-/// might take more memory than there is.
-inline bool isHugePattern(const std::string& pattern) {
-  constexpr double kMost = 4096;
-  double repetitions = 1;
-  for (size_t i = 0; i < pattern.size(); ++i) {
-    if (pattern[i] != '{') continue;
-    double most = 1;
-    for (; i < pattern.size() && pattern[i] != '}'; ++i) most = std::max(most, std::atof(&pattern[i]));
-    repetitions *= most;
+namespace text_detail {
+/// Returns the number after '{' of a repetition ("{2,5}": 5; "{2,}": 2), and moves `at` to its '}'.
+inline double repetitions(const std::string& pattern, size_t& at) {
+  double out = 1, number = 0;
+  for (++at; at < pattern.size() && pattern[at] != '}'; ++at) {
+    const char c = pattern[at];
+    number = c >= '0' && c <= '9' ? 10 * number + (c - '0') : 0;
+    out = std::max(out, number);
   }
-  return static_cast<double>(pattern.size()) > kMost || repetitions > kMost;
+  return out;
+}
+}  // namespace text_detail
+
+/// Tells whether an extended regular expression is so long, or repeats so much within what is repeated
+/// ("((a{255}){255}){255}"), that to prepare it might take more memory than there is.
+inline bool isHugePattern(const std::string& pattern) {
+  constexpr size_t kLongest = 4096;
+  constexpr double kMostAtoms = 1 << 16;
+  if (pattern.size() > kLongest) return true;
+  std::vector<double> groups{0};  // the atoms of each group that is open, with their repetitions
+  double last = 0;                // those of the last atom or group
+  for (size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] == '(') {
+      groups.push_back(0);
+      last = 0;
+    } else if (pattern[i] == ')' && groups.size() > 1) {
+      last = groups.back();
+      groups.pop_back();
+      groups.back() += last;
+    } else if (pattern[i] == '{') {
+      const double times = text_detail::repetitions(pattern, i);
+      groups.back() += last * (times - 1);
+      last *= times;
+    } else {
+      groups.back() += last = 1;
+    }
+    if (groups.back() > kMostAtoms) return true;
+  }
+  return false;
 }
 
 /// Tells whether an extended regular expression fits any part of the text. One that is malformed or huge fits nothing.

@@ -159,7 +159,7 @@ int stabilityCommand(const ChartSettings& given) {
     auto scene = readLabScene(file, error);
     if (!scene) {
       log.report(Severity::Error, "lab-scene", {std::make_shared<std::string>(file), 0},
-                 "is no scene of a stability: " + error);
+                 "is no scene of a laboratory: " + error);
       return exitCodeOf(log);
     }
     curves.push_back(stability.measure(std::move(*scene)));

@@ -12,9 +12,9 @@ namespace tomales {
 /// several frames, or other runs have some.
 bool holdsForAnimation(const RenderSettings& settings);
 
-/// Reads --animation-settings if that file is there. Else finds settings on the pilot frames, which needs all of the stream
-/// to be read again, and writes them there. Returns nothing if they cannot be found before rendering begins: the stream
-/// has one frame, or is standard input; or if something fails, which is in the log.
+/// Reads --animation-settings if that file is there. Else finds settings on the pilot frames, which needs all of the
+/// stream to be read again, and writes them there. Returns nothing if they cannot be found before rendering begins: the
+/// stream has one frame, or is standard input; or if something fails, which is in the log.
 std::optional<HeldQuality> findHeldQuality(const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -111,7 +111,7 @@ class Check {
     };
     std::string fate;
     for (int k = 0; const char* name = shader_.unlist(&shader_, k); ++k)
-      if (!runInFork(silently, kMostSeconds, fate))
+      if (!runInFork(silently, kMostSeconds, fate) && fate.starts_with("crashes"))
         out.push_back(
             fmt::format("shader \"{}\" reads the parameter \"{}\", which it does not list", shader_.name, name));
   }

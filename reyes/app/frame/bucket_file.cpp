@@ -41,14 +41,16 @@ void BucketFile::keepForResume(size_t index, const DeepTile& tile) {
 
 void BucketFile::spill(size_t index, const DeepTile& tile) {
   std::string error;
+  DfbWriter* file = nullptr;
   {
     const std::lock_guard lock(opening_);
     if (!file_) file_ = openUnnamed(error);
+    file = file_.get();
   }
-  if (!file_ || (!file_->has(index) && !file_->write(index, tile)))
+  if (!file || (!file->has(index) && !file->write(index, tile)))
     log_.report(Severity::Output, "spill", {},
                 "the frame's buckets do not fit into memory, nor into a file beside \"" + picture_ +
-                    "\", and some are left out: " + (file_ ? file_->error() : error));
+                    "\", and some are left out: " + (file ? file->error() : error));
   else
     ++spilled_;
 }

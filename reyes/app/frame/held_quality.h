@@ -1,5 +1,5 @@
-// Settings of light that hold for all frames of an animation. Found for each frame alone they would change from frame to
-// frame, and what each of them gets wrong would flicker (docs/decisions/0177).
+// Settings of light that hold for all frames of an animation. Found for each frame alone they would change from frame
+// to frame, and what each of them gets wrong would flicker (docs/decisions/0177).
 #pragma once
 #include <optional>
 #include <string>

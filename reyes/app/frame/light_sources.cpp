@@ -71,9 +71,9 @@ const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& sh
 }
 
 bool countsPhotons(const GiMethod& method, const Scene& scene) {
-  const auto focuses = [](const ShadeGroup& g) { return isSpecularForPhotons(*g.attributes); };
+  const auto isSpecular = [](const ShadeGroup& g) { return isSpecularForPhotons(*g.attributes); };
   return method.countsPhotons &&
-         (!method.causticsAlone || std::any_of(scene.groups.begin(), scene.groups.end(), focuses));
+         (!method.causticsAlone || std::any_of(scene.groups.begin(), scene.groups.end(), isSpecular));
 }
 
 void setLightSources(GiServices& services, const GiMethod& method, const FrameOfLight& frame) {

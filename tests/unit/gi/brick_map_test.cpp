@@ -470,6 +470,7 @@ TEST_F(BrickMaps, FilesWhoseNodesAreNoTreeAreRefused) {
   EXPECT_FALSE(refuses({{}, one}, 1));
   EXPECT_TRUE(refuses({{}, both}, 1)) << "a node that hangs on its parent twice";
   EXPECT_TRUE(refuses({{}, one}, 0)) << "more levels than it says";
+  EXPECT_TRUE(refuses({{}, one}, 5)) << "fewer levels than it says";
   EXPECT_TRUE(refuses({{}, {}}, 1)) << "a node that hangs on nothing";
   EXPECT_TRUE(refuses({{}}, 22)) << "more levels than there may be";
 }

@@ -107,6 +107,11 @@ Cases functionCases() {
       {"an output array", "void f(output float a[2]) { a[0] = 3; a[1] = 4; } float b[2]; f(b); x = b[0] * 10 + b[1];",
        34},
       {"a text", "float f(string a) { if (a == \"one\") return 1; return 2; } x = f(\"one\") * 10 + f(\"two\");", 12},
+      {"a call in an early return",
+       "x = f(s);",
+       [](float i) { return i > 4 ? 2 * i : 0; },
+       {.outside = "float h(float a) { if (a > 1) return a; return 0; } float g(float a) { if (a > 2) return 2 * h(a);"
+                   " return 0; } float f(float a) { if (a > 4) return g(a); return 0; }"}},
       {"a number that is returned early as a matrix",
        "x = determinant(unit(s));",
        [](float i) { return i > 4 ? 1.0f : 16.0f; },

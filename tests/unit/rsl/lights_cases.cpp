@@ -92,6 +92,20 @@ Cases lightCases() {
        "illuminate (point (0, 0, 0), vector (0, 0, 5), PI / 4) x = 1;",
        [](float i) { return i * std::sqrt(5.0f) < 3 ? 1.0f : 0.0f; },
        {.kind = "light"}},
+      {"outside of several cones there is some direction all the same",
+       "illuminate (point (0, 0, 9), vector (0, 0, 1), PI / 4) x = 2;"
+       "illuminate (point (0, 0, 8), vector (0, 0, 1), PI / 4) x = 3; w = L;",
+       [](float i) {
+         return Vec3{i, 2 * i, -6};
+       },
+       {.kind = "light"}},
+      {"cones in a function",
+       "float held = 0; void cone(point p; float n; output float h) { illuminate (p, vector (0, 0, 1), PI / 4) h = n; }"
+       "cone(point (0, 0, 0), 1, held); cone(point (0, 0, 9), 2, held); if (held == 1) w = L;",
+       [](float i) {
+         return i * std::sqrt(5.0f) < 3 ? Vec3{i, 2 * i, 3} : Vec3{0, 0, 0};
+       },
+       {.kind = "light"}},
       {"of several cones, the one that holds the point gives the direction",
        "float held = 0; illuminate (point (0, 0, 0), vector (0, 0, 1), PI / 4) held = 1;"
        "illuminate (point (0, 0, 9), vector (0, 0, 1), PI / 4) held = 2; if (held == 1) w = L;",

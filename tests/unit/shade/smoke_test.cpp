@@ -1,5 +1,5 @@
 // Light in the air: smoke that is marched along the ray from the eye, against closed forms.
-#include "tests/unit/shade/elsewhere.h"
+#include "tests/unit/shade/remote_batch.h"
 
 namespace tomales {
 namespace {

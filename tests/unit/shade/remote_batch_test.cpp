@@ -1,7 +1,7 @@
 // Light at places that are not the points of a batch: illuminance(Q), messages to lights.
 #include <cstddef>
 
-#include "tests/unit/shade/elsewhere.h"
+#include "tests/unit/shade/remote_batch.h"
 
 namespace tomales {
 namespace {
