@@ -107,9 +107,10 @@ told("prman", SHINE)
 told("rispec", SHINE, 'Option "shade" "specular" "rispec"')
 told("switch", SHINE, "", 0, "--specular", "rispec")
 told("bmrt_option", SHINE, 'Option "render" "prmanspecular" 0')
+told("bmrt_twice", SHINE, 'Option "render" "prmanspecular" 1\nOption "render" "prmanspecular" 0')
 told("bmrt_attribute", 'Attribute "render" "casts_shadows" "none"\n' + SHINE)
 t.expect(picture("prman") != picture("rispec"), "the two exponents differ")
-for name in ("switch", "bmrt_option"):
+for name in ("switch", "bmrt_option", "bmrt_twice"):
     t.expect(picture(name) == picture("rispec"), f"{name} has RISpec's")
 t.expect(picture("bmrt_attribute") == picture("prman"), "other requests of BMRT's change nothing")
 t.write("brdf.sl", "surface brdf() { normal n = normalize(N); Oi = 1; illuminance (P, n, PI / 2) Ci += Cl * specularbrdf(normalize(L), n, -normalize(I), .1); }")
