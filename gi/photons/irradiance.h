@@ -31,6 +31,8 @@ inline int surfacePowerOffset(const std::vector<CloudChannel>& channels) {
 inline int powerOffset(const std::vector<CloudChannel>& channels) {
   return std::max(offsetOf(channels, kPathPower, 3), surfacePowerOffset(channels));
 }
+/// Throws FileError unless a file has one of these channels of photons on surfaces.
+void requirePhotons(const PointFile& file);
 inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Sums over a part of the picture.
