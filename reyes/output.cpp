@@ -98,16 +98,17 @@ class Planner {
   }
 
   /// Selects a channel, or the letters of a mode "bar" unless that is a channel. In a list, as in "rgba,diffuse", only
-  /// those of colour and opacity are letters.
+  /// single ones and those of colour and opacity are letters.
   void selectNamed(const std::string& name, const std::string& mode, const DisplayCall& display, Selection& selection) {
-    const bool letters = isOfLetters(name) && (name == mode || name.starts_with("rgb"));
+    const bool letters = isOfLetters(name) && (name == mode || name.size() == 1 || name.starts_with("rgb"));
     if (!letters || options_.channels.contains(name)) return select(name, display, selection);
-    for (const char letter : name) select(std::string(1, letter), display, selection);
+    for (const char letter : name) select(std::string(1, letter), display, selection, true);
   }
 
-  void select(const std::string& name, const DisplayCall& display, Selection& selection) {
+  /// asLetter: "r", "g" and "b" are those of Ci, whatever channels are called so.
+  void select(const std::string& name, const DisplayCall& display, Selection& selection, bool asLetter = false) {
     static const std::string kLetters = "rgb";
-    const bool letter = name.size() == 1 && kLetters.find(name[0]) != std::string::npos;
+    const bool letter = asLetter && kLetters.find(name[0]) != std::string::npos;
     Encoding encoding;
     const int channel = letter ? channelNamed("Ci", display, encoding) : channelNamed(name, display, encoding);
     if (channel < 0) return;

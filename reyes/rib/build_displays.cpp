@@ -81,15 +81,20 @@ void display(GraphicsState& s, const Request& r) {
   s.globals.options.displays.push_back(std::move(call));
 }
 
-// "class type name" gives the type of the variable; the class does not matter.
+// "class type name" gives the type of the variable; the class does not matter. A name alone has the type that Declare
+// or the renderer has given it.
 void displayChannel(GraphicsState& s, const Request& r) {
-  ChannelCall call{"", ValueType::Color, r.params, r.where};
-  const std::string& token = r.args[0].strings[0];
+  std::string token = r.args[0].strings[0];
+  ChannelCall call{token, ValueType::Color, r.params, r.where};
+  if (const auto it = s.declared.find(token); it != s.declared.end()) token = it->second + ' ' + token;
   if (const auto declaration = standardNames().find(token, "", call.name)) {
     const auto type = channelType(*declaration);
     call.type = type.value_or(call.type);
     if (!type)
       return s.warn(r, "rib-channel", fmt::format("\"{}\" is of a type that no picture holds; ignored", token));
+  } else if (const SurfaceVariable* standard = surfaceVariable(token)) {
+    call.name = token;
+    call.type = standard->type;
   } else {
     call.name = token;
     s.warn(r, "rib-channel", fmt::format("\"{}\" has no type; taken for a color", token));

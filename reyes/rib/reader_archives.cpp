@@ -86,7 +86,10 @@ void Reader::readArchiveFile(const Request& r, const std::string& name) {
   tellOfFile(r, "archive", name, path);
   const auto stream = path.empty() ? nullptr : ByteStream::open(path);
   const std::string quoted = "\"" + name.substr(0, 200) + "\" ";
-  if (!stream)
+  if (!stream && !path.empty())
+    report(Severity::Missing, "rib-missing-archive", r,
+           quoted + "is not read: " + ByteStream::refusal(path) + "; nothing is read in its place");
+  else if (!stream)
     report(Severity::Missing, "rib-missing-archive", r,
            quoted + "is missing or unreadable, looked for in " + listOfFolders(foldersFor("archive")) +
                hintOfMissing(name, {".rib"}, foldersFor("archive")) + "; nothing is read in its place");

@@ -31,15 +31,19 @@ ByteStream::ByteStream(Source source) : source_(std::move(source)), raw_(std::ma
 ByteStream::~ByteStream() = default;
 
 std::string ByteStream::refusal(const std::string& path) {
-  const std::string problem = inputProblem(path);
+  std::string problem;
+  if (zipOf(path).empty())
+    problem = inputProblem(path);
+  else
+    openZipMember(path, kHarmless_bytes, kLargestRatio, problem);
   return "the file cannot be opened" + (problem.empty() ? "" : ": " + problem);
 }
 
 std::unique_ptr<ByteStream> ByteStream::open(const std::string& path) {
   std::error_code ignored;
   if (path != "-" && std::filesystem::is_directory(path, ignored)) return nullptr;
-  if (path != "-" && !std::filesystem::exists(path, ignored))
-    if (const ZipSource source = openZipMember(path, kHarmless_bytes, kLargestRatio))
+  if (std::string why; path != "-" && !std::filesystem::exists(path, ignored))
+    if (const ZipSource source = openZipMember(path, kHarmless_bytes, kLargestRatio, why))
       return std::unique_ptr<ByteStream>(new ByteStream(source));
   std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
   if (!file) return nullptr;

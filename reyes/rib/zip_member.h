@@ -13,8 +13,8 @@ std::string zipOf(const std::string& path);
 using ZipSource = std::function<size_t(char* buffer, size_t size)>;
 constexpr size_t kBrokenZip = static_cast<size_t>(-1);
 
-/// Returns an empty source if there is no such zip file or member, or if it unpacks to more than both `harmless_bytes`
-/// and `largestRatio` times its size. Threads: each source belongs to its reader.
-ZipSource openZipMember(const std::string& path, size_t harmless_bytes, size_t largestRatio);
+/// Returns an empty source, and `why` in a few words, if there is no such zip file or member, or if it unpacks to more
+/// than both `harmless_bytes` and `largestRatio` times its size. Threads: each source belongs to its reader.
+ZipSource openZipMember(const std::string& path, size_t harmless_bytes, size_t largestRatio, std::string& why);
 
 }  // namespace tomales::rib

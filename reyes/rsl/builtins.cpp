@@ -70,6 +70,8 @@ constexpr Row kRows[] = {
     {"point transform(string string point)", Op::TransformSpace, Emit::Transform, TM_AS_POINT},
     {"point transform(matrix point)", Op::TransformPoint},
     {"point transform(string matrix point)", Op::TransformPoint, Emit::Transform, TM_AS_POINT},
+    {"point ptransform(string point)", Op::TransformSpace, Emit::Transform, TM_AS_POINT},
+    {"point ptransform(string string point)", Op::TransformSpace, Emit::Transform, TM_AS_POINT},
     {"vector vtransform(string vector)", Op::TransformSpace, Emit::Transform, TM_AS_VECTOR},
     {"vector vtransform(string string vector)", Op::TransformSpace, Emit::Transform, TM_AS_VECTOR},
     {"vector vtransform(matrix vector)", Op::TransformVector},

@@ -81,6 +81,50 @@ float raydepth() { float d = 0; rayinfo("depth", d); return d; }
 float raylevel() { return raydepth(); }
 float isshadowray() { string kind = ""; rayinfo("type", kind); return kind == "transmission"; }
 float isindirectray() { string kind = ""; rayinfo("type", kind); return kind == "diffuse"; }
+
+/* Rays of the Blue Moon Rendering Tools. What is not hit lies at 1e30. */
+float fulltrace(point from; vector dir; output color seen; output float dist; output point phit; output vector nhit;
+                output point pmiss; output vector rmiss) {
+  color c = 0;
+  float far = 1e30;
+  point p = phit;
+  normal n = nhit;
+  gather("illuminance", from, dir, 0, 1, "surface:Ci", c, "ray:length", far, "primitive:P", p, "primitive:N", n) {
+    phit = p;
+    nhit = n;
+  } else {
+    c = 0;
+    far = 1e30;
+  }
+  seen = c;
+  dist = far;
+  pmiss = from;
+  rmiss = dir;
+  return far;
+}
+float rayhittest(point from; vector dir; output point phit; output vector nhit) {
+  color seen;
+  float dist;
+  point pmiss;
+  vector rmiss;
+  return fulltrace(from, dir, seen, dist, phit, nhit, pmiss, rmiss);
+}
+/* The same in world space: headers of "Advanced RenderMan" make these of the calls above. */
+color rayserver(point from; vector dir) {
+  return trace(transform("world", "current", from), vtransform("world", "current", dir));
+}
+color rayserver(point from, to) {
+  return visibility(transform("world", "current", from), transform("world", "current", to));
+}
+float rayserver(point from; vector dir; output point phit; output vector nhit) {
+  return rayhittest(transform("world", "current", from), vtransform("world", "current", dir), phit, nhit);
+}
+float rayserver(point from; vector dir; output color seen; output float dist; output point phit; output vector nhit;
+                output point pmiss; output vector rmiss) {
+  return fulltrace(transform("world", "current", from), vtransform("world", "current", dir), seen, dist, phit, nhit,
+                   pmiss, rmiss);
+}
+
 /* Outputs that nobody wants cost nothing here. */
 float isoutput(string name) { return 1; }
 )RSL";

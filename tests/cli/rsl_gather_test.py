@@ -66,4 +66,32 @@ expect("the volume of the other side is not crossed", '"volume:Ci", c', 'Interio
 t.write("asks.sl", ASKS % '"volume:Ci", c, "volume:density", c')
 t.write("scene.rib", SCENE % "")
 t.expect_run("another value of a volume is warned of", ["scene.rib", "-o", "scene.exr"], 0, '"volume:density", which there is not')
+
+# The rays of BMRT, and those that the headers of "Advanced RenderMan" ask a server for in world space. The left half meets the sheet four units away.
+t.write("world.h", """#define worldp(p) transform("world", p)
+#define worldv(v) vtransform("world", v)
+#define trace(p, d) rayserver(worldp(p), worldv(d))
+#define visibility(p, q) rayserver(worldp(p), worldp(q))
+#define rayhittest(p, d, phit, nhit) rayserver(worldp(p), worldv(d), phit, nhit)
+#define fulltrace(p, d, chit, dist, phit, nhit, pmiss, rmiss) rayserver(worldp(p), worldv(d), chit, dist, phit, nhit, pmiss, rmiss)
+""")
+ASKED = """surface asks() {
+  vector d = faceforward(normalize(N), I), n = 0, r = 0;
+  color c = 7, seen = trace(P, d);
+  point p = 0, q = 0;
+  float far = rayhittest(P, d, p, n), way = 0, back = zcomp(P - p);
+  fulltrace(P, d, c, way, p, n, q, r);
+  Oi = 1;
+  Ci = color(comp(c, 0), abs(zcomp(n)), min(way, far) < 5 ? way + back / 10 : 9);
+  if (c != seen && comp(c, 0) > 0) Ci = -1;
+  if (visibility(P, P + 9 * d) != (way < 5 ? color(.5) : color(1))) Ci = -2;
+}
+"""
+for header in ("", '#include "world.h"\n'):
+    t.write("asks.sl", header + ASKED)
+    result = t.expect_run(f"fulltrace, rayhittest and visibility with header '{header.strip()}'", ["scene.rib", "-o", "scene.exr"], 0)
+    seen = pixels(t.folder / "scene.exr")
+    for (x, wanted) in ((4, (0.4, 1, 4.4)), (12, (0, 0, 9))):
+        far = max(abs(a - b) for a, b in zip(seen[x, 8], wanted))
+        t.expect(far < 1e-3, f"  pixel {x} has {[round(v, 4) for v in seen[x, 8][:3]]}, and {list(wanted)} is wanted")
 t.finish()

@@ -28,9 +28,10 @@ t.expect_run("a member that reads another", [scene("nested", "a.zip!job/outer.ri
 t.expect(same("nested.exr", "good.exr"), "is read in place, too")
 t.expect_run("a scene in a zip file", ["a.zip!scene.rib"], 0)
 t.expect(same("zipped.exr", "good.exr"), "is rendered")
-t.expect_run("no such member", [scene("lost", "a.zip!nosuch.rib")], 3, "nosuch.rib")
+t.expect_run("no such member", [scene("lost", "a.zip!nosuch.rib")], 3, "nosuch.rib", "holds no file of that name")
 t.expect_run("no such zip file", [scene("nowhere", "b.zip!ball.rib")], 3, "b.zip")
-t.expect_run("a member that swells to a thousand times its size", [scene("bomb", "a.zip!bomb.rib")], 3, "bomb.rib")
+t.expect_run("a member that swells to a thousand times its size", [scene("bomb", "a.zip!bomb.rib")], 3, "bomb.rib", "it swells beyond 64 MiB and 200 times its size")
+t.expect_run("named as the scene", ["a.zip!bomb.rib"], 2, "it swells beyond 64 MiB and 200 times its size")
 
 # A member is damaged, and a file is no zip file.
 data = bytearray((t.folder / "a.zip").read_bytes())
@@ -39,6 +40,6 @@ data[start + 4] ^= 0xFF
 t.write("damaged.zip", bytes(data))
 t.expect_run("a damaged member", [scene("damaged", "damaged.zip!ball.rib")], 3)
 t.write("text.zip", "no zip file")
-t.expect_run("what is no zip file", [scene("text", "text.zip!ball.rib")], 3)
+t.expect_run("what is no zip file", [scene("text", "text.zip!ball.rib")], 3, "text.zip is no zip file, or damaged")
 
 t.finish()

@@ -33,6 +33,12 @@ bool assigns(const Expr& e) {
 
 bool endsOperand(const Token& t) { return t.is(";") || t.is(")") || t.is(",") || t.is("]"); }
 
+/// Tells whether nothing stands between two punctuators of one character.
+bool touches(const Token& a, const Token& b) {
+  return a.place.file == b.place.file && a.place.line == b.place.line && a.place.column + 1 == b.place.column &&
+         a.place.expansion == b.place.expansion;
+}
+
 bool hasSpaces(Base base) { return base >= Base::Color && base <= Base::Matrix; }
 
 bool beginsOperand(const Token& t) {
@@ -66,9 +72,11 @@ bool Parser::isDoubledSign() const { return (here().is("+") || here().is("-")) &
 // i++, which RISpec does not have, but some compilers do. Its value is that before.
 bool Parser::isIncrement() const { return isDoubledSign() && endsOperand(here(2)); }
 
-// ++i as a whole expression, or as a part of a list. Elsewhere, as in x = - -y, it is two signs.
+// ++i and --a[1]. Signs that do not touch, as in - -y, or come from macros, are two signs, and so are all of a---b.
 bool Parser::isEarlyIncrement() const {
-  return isDoubledSign() && here(2).kind == TokenKind::Name && endsOperand(here(3));
+  const bool isThird = at_ > 0 && tokens_[at_ - 1].is(here().text) && touches(tokens_[at_ - 1], here());
+  return isDoubledSign() && touches(here(), here(1)) && !isThird && here(2).kind == TokenKind::Name &&
+         !baseNamed(here(2).text) && !here(3).is("(");
 }
 
 ExprPtr Parser::one(const Token& at) const {
@@ -98,26 +106,31 @@ ExprPtr Parser::increment(ExprPtr variable) {
 ExprPtr Parser::earlyIncrement() {
   const Token& sign = take();
   take();
-  return added(sign, make(ExprKind::Name, take()));
+  ExprPtr variable = postfix();
+  checkAssigned(*variable, sign, true);
+  return added(sign, std::move(variable));
 }
 
 ExprPtr Parser::expression() {
-  const auto part = [&] { return isEarlyIncrement() ? earlyIncrement() : assignment(); };
-  ExprPtr first = part();
+  ExprPtr first = assignment();
   if (!here().is(",")) return first;
   ExprPtr all = make(ExprKind::Comma, here());
   adopt(*all, std::move(first));
-  while (takeIf(",")) adopt(*all, part());
+  while (takeIf(",")) adopt(*all, assignment());
   return all;
+}
+
+void Parser::checkAssigned(const Expr& variable, const Token& sign, bool isReadToo) {
+  if (variable.kind != ExprKind::Name && variable.kind != ExprKind::Index)
+    failAt(sign, "only a variable or an element of an array can be assigned");
+  if (isReadToo && variable.kind == ExprKind::Index && assigns(*variable.args[1]))  // it would be evaluated twice
+    failAt(sign, fmt::format("the index before '{}' changes a variable; do that before", sign.text));
 }
 
 ExprPtr Parser::assignment() {
   ExprPtr left = conditional();
   if (!isAssignment(here()) && !isIncrement()) return left;
-  if (left->kind != ExprKind::Name && left->kind != ExprKind::Index)
-    failAt(here(), "only a variable or an element of an array can be assigned");
-  if (left->kind == ExprKind::Index && !here().is("=") && assigns(*left->args[1]))  // it would be evaluated twice
-    failAt(here(), fmt::format("the index before '{}' changes a variable; do that before", here().text));
+  checkAssigned(*left, here(), !here().is("="));
   if (isIncrement()) return increment(std::move(left));
   const Level level(*this);
   ExprPtr out = make(ExprKind::Assign, take());
@@ -152,6 +165,7 @@ ExprPtr Parser::binary(int lowest) {
 
 ExprPtr Parser::unary() {
   const Level level(*this);
+  if (isEarlyIncrement()) return earlyIncrement();
   if (here().is("-") || here().is("!") || here().is("+")) {
     ExprPtr out = make(ExprKind::Unary, take());
     adopt(*out, unary());

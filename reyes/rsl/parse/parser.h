@@ -86,6 +86,8 @@ class Parser {
   // expressions.cpp
   ExprPtr expression();  ///< Commas included.
   ExprPtr assignment();
+  /// Fails if a value cannot be assigned to it.
+  void checkAssigned(const Expr& variable, const Token& sign, bool isReadToo);
   bool isDoubledSign() const;
   bool isIncrement() const;
   bool isEarlyIncrement() const;

@@ -51,6 +51,18 @@ TEST_F(Output, AChannelThatIsSpelledOfLettersIsTheChannel) {
   EXPECT_EQ(names(o, log), "bar ");
 }
 
+TEST_F(Output, AChannelOfOneLetterIsTheChannelAndNoLetterOfAMode) {
+  Options o = showing("r");
+  o.channels["r"] = {"r", ValueType::Color, {}, {}};
+  EXPECT_EQ(names(o, log), "r.R r.G r.B ");
+  for (const auto& [mode, wanted] : {std::pair("rgba", "R G B A "), std::pair("Ci,a,r", "R G B A r.R r.G r.B "),
+                                     std::pair("g,b", "G B "), std::pair("rgb,r", "R G B r.R r.G r.B ")}) {
+    o.displays[0].mode = mode;
+    EXPECT_EQ(names(o, log), wanted) << mode;
+  }
+  EXPECT_TRUE(log.entries().empty());
+}
+
 TEST_F(Output, ColoursHaveComponentsRgbAndVectorsXyz) {
   EXPECT_EQ(names(showing("Ci,N,s,albedo"), log), "R G B N.X N.Y N.Z s albedo.R albedo.G albedo.B ");
 }

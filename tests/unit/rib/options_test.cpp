@@ -54,6 +54,16 @@ TEST(Options, AreReadFromEveryRequest) {
   EXPECT_TRUE(o.fov_degrees == 45 && o.frame == 7);
 }
 
+TEST(Options, ADisplayChannelWithoutATypeHasThatOfDeclareOrOfTheRenderer) {
+  const Reading r(R"(Declare "depth" "varying float" DisplayChannel "depth" DisplayChannel "N" DisplayChannel "s")" +
+                  inWorld(""));
+  const auto& channels = r.scene().options.channels;
+  EXPECT_EQ(channels.at("depth").type, ValueType::Float);
+  EXPECT_EQ(channels.at("N").type, ValueType::Normal);
+  EXPECT_EQ(channels.at("s").type, ValueType::Float);
+  EXPECT_EQ(r.codes(), "");
+}
+
 TEST(Options, DisplayChannelsAreTypedByTheirNameAndHidersHaveDepthFilters) {
   const Reading r(
       R"(DisplayChannel "varying color diffuse" DisplayChannel "varying normal Nn" "string source" "N" "string filter" "zmin"

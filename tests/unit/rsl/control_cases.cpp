@@ -47,6 +47,8 @@ Cases controlCases() {
       {"a step of two parts", "float k, n = 0; for (k = 0; k < 4; n += 2, ++k) x += s; x += n;",
        [](float i) { return 4 * i + 8; }},
       {"the value of ++ is that before", "float k = 3, before = k++; x = 10 * k + before;", 43},
+      {"the value of ++ before a variable is that after", "float k = 3, after = ++k; x = 10 * k + after;", 44},
+      {"-- before an element", "float a[2] = {1, 5}; x = --a[1] * 10 + a[1];", 44},
       {"two signs between operands stay signs", "x = 7 - -s + +1;", [](float i) { return 8 + i; }},
       {"the counter is known behind the loop", "float k; for (k = 0; k < mod(s, 5); k += 1) x = k; x = k;",
        [](float i) { return std::fmod(i, 5.0f); }},

@@ -40,6 +40,16 @@ TEST(Precedence, OfUnaryOperatorsIsAboveAllBinaryOnes) {
                {"-a[1]", "(- ([ a 1))"}});
 }
 
+TEST(Precedence, OfTwoSignsThatTouchIsThatOfOneOperator) {
+  expectTrees({{"x = ++a", "(= x (+= a 1))"},
+               {"++a[1]", "(+= ([ a 1) 1)"},
+               {"a - --b", "(- a (-= b 1))"},
+               {"a---b", "(- a (- (- b)))"},
+               {"--f(b)", "(- (- (f b)))"},
+               {"--float b", "(- (- (float b)))"},
+               {"--2", "(- (- 2))"}});
+}
+
 TEST(Precedence, OfCastsIsAsTightAsOfUnaryOperators) {
   expectTrees({{"color noise(P) * 2", "(* (color (noise P)) 2)"},
                {"float noise(P) . b", "(. (float (noise P)) b)"},
