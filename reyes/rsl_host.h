@@ -17,6 +17,10 @@ constexpr int32_t kArrayVaries = 0x10000;
 /// it.
 constexpr int kDefaultLightSamples = 16;
 
+/// Added to the type of a parameter that is only what an output begins with: the host cannot take the arrays, matrices
+/// and texts that shaders compute. Messages do not tell it.
+constexpr int32_t kBeginsOutput = 0x20000;
+
 /// Returns the form of a light that AreaLightSource runs: its P lies on the geometry. Returns null if the light is not
 /// written in RSL, or does not read P.
 const TmShader* rslAreaLight(const TmShader& light);

@@ -17,6 +17,7 @@
 #include "reyes/base/missing_file.h"
 #include "reyes/base/search_path.h"
 #include "reyes/pictures/convert.h"
+#include "reyes/pictures/footprint.h"
 
 namespace tomales {
 namespace {
@@ -107,8 +108,6 @@ OIIO::TextureOpt optionsOf(const TextureQuery& q) {
   Opt o;
   o.firstchannel = q.channel;
   o.fill = q.fill;
-  o.swidth = q.sWidth;
-  o.twidth = q.tWidth;
   o.sblur = q.sBlur;
   o.tblur = q.tBlur;
   const std::string_view filter = q.filter ? q.filter : "";
@@ -230,11 +229,16 @@ bool Cache::lookup(const TextureQuery& q, TmVec3 out, int64_t& lookups, std::str
     } else {
       file = known.tiles.begin()->second;
     }
-    const auto edge = [&](const float* e) { return e && std::isfinite(e[i]) ? e[i] : 0.0f; };
+    const auto edge = [&](const float* e, float width) {
+      const float wide = e ? e[i] * width : 0;
+      return std::isfinite(wide) ? double{wide} : 0;
+    };
     // OpenImageIO 2.4 reads beyond the texel where a picture lacks even the first channel.
     if (file.handle && q.channel < file.channels) {
-      found =
-          system->texture(file.handle, thread, options, s, t, edge(q.su), edge(q.tu), edge(q.sv), edge(q.tv), n, texel);
+      const Footprint f =
+          soundFootprint({edge(q.su, q.sWidth), edge(q.tu, q.tWidth), edge(q.sv, q.sWidth), edge(q.tv, q.tWidth)});
+      found = system->texture(file.handle, thread, options, s, t, static_cast<float>(f.su), static_cast<float>(f.tu),
+                              static_cast<float>(f.sv), static_cast<float>(f.tv), n, texel);
       ++lookups;
     }
     for (int k = 0; k < n; ++k) channels[k][i] = texel[k];

@@ -71,8 +71,9 @@ struct Parameter {
   bool output = false;        ///< True if the host only takes its value, a number or triple, and gives none.
   std::vector<float> floats;  ///< The default in shader space, if it is constant.
   std::vector<std::string> texts;
-  /// True if the shader computes the default when it is given no value: `floats` and `texts` then
-  /// are the marks of reyes/computed_default.h.
+  bool beginsOutput = false;  ///< See kBeginsOutput in reyes/rsl_host.h.
+  /// True if the shader computes the default when it is given no value: `floats` and `texts` then are the marks of
+  /// reyes/computed_default.h.
   bool computed = false;
   Place place{};
 };

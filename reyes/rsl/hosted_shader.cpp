@@ -34,6 +34,7 @@ int32_t typeOf(const Parameter& p) {
   int32_t type = kTypes[static_cast<size_t>(p.type.base)];
   if (p.output) type |= TM_OUTPUT;
   if (p.type.isArray()) type |= kArrayVaries;
+  if (p.beginsOutput) type |= kBeginsOutput;
   return type;
 }
 

@@ -93,6 +93,7 @@ void Lowering::parameter(const Variable& v) {
   const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
   const int32_t output = stored ? outputParameter(v) : -1;
   givenParameter(v);
+  code_.parameters.back().beginsOutput = v.output && v.assigned && !stored;
   if (!stored) return;
   const int32_t given = registers_[&v];
   initialise(output, given);

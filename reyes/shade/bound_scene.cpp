@@ -31,6 +31,12 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
                    fmt::format("{} {}", bound.shader->name, decl.name));
       else if (same)
         out.push_back({i, offset, width});
+      else if (p.name == decl.name)
+        log.report(Severity::Warning, "shader-parameter-type", bound.where,
+                   fmt::format("{}: shader \"{}\": parameter \"{}\" is of another type or length than the primitive "
+                               "variable of that name, which is ignored",
+                               bound.user, bound.shader->name, decl.name),
+                   fmt::format("{} {}", bound.shader->name, decl.name));
       offset += p.width;
     }
   }

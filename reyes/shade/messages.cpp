@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "reyes/attribute_table.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/primary.h"
 #include "reyes/shade/remote_batch.h"
@@ -37,7 +38,7 @@ int32_t answerShaderParameter(const BoundShader* shader, const TmValue* values, 
   for (int i = 0; i < shader->shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->shader->params[i];
     if (decl.name != name) continue;
-    if (isOutput(decl) && !(ended && values[i].c[0])) return 0;
+    if ((isOutput(decl) && !(ended && values[i].c[0])) || (decl.type & kBeginsOutput) != 0) return 0;
     *type = TM_TYPE_OF(decl.type);
     *out = values[i];
     return 1;

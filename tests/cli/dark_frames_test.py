@@ -74,6 +74,9 @@ t.expect(not told("cropped", 'LightSource "distantlight" 1 "intensity" 0\n' + BA
 said = told("behind_the_camera", 'LightSource "distantlight" 1\nTranslate 0 0 -10\n' + BALL, "", 3)
 t.expect("behind the camera" in said.get("frame-empty", ""), f"everything behind the camera: {said}")
 
+said = told("turned_away", 'LightSource "distantlight" 1\nSides 1\nDisk 0 1 360\n', "", 3)
+t.expect("turned away from the camera (Sides 1)" in said.get("frame-empty", ""), f"a disk that faces away: {said}")
+
 # One lamp is far too bright.
 said = told("glare", 'LightSource "distantlight" 1\nLightSource "distantlight" 2 "intensity" 100\n' + BALL)
 t.expect('"2"' in said.get("light-glare", "") and "64 times" in said["light-glare"], f"the lamp is named, and how much: {said}")

@@ -104,4 +104,12 @@ silent, _ = render("silent", scene('Surface "asking"'))
 t.expect(all(abs(a - 140) < 2 and c == 0 for a, b, c in told(silent)), f"nothing is told where nothing is displaced ({told(silent)[:2]})")
 heard, _ = render("heard", scene('LightSource "hearing" 9 Illuminate 1 0 Surface "telling"'), 0)
 t.expect(all(a == 0 and abs(b - 7) < 1e-4 and c == 0 for a, b, c in told(heard)), f"lights do not hear what a surface computes, and are told so ({told(heard)[:2]})")
+# Arrays, matrices and texts are not kept. What an output of these begins with is no answer, unless the shader never assigns it.
+t.write("listing.sl", 'displacement listing(output varying float w[2] = {1, 2}; output varying matrix m = 3; output string g = "first";'
+        'output varying float still[2] = {4, 5}) { w[0] = s; m = 7; g = "last"; N = calculatenormal(P); }')
+t.write("reading.sl", 'surface reading() { float w[2] = {9, 9}, still[2] = {9, 9}; matrix m = 9; string g = "own";'
+        'float known = displacement("w", w) + displacement("m", m) + displacement("g", g); Oi = 1;'
+        'Ci = color(known + w[0] + comp(m, 1, 1), match("own", g), 10 * displacement("still", still) + still[1]); }')
+read, _ = render("reading", scene('Displacement "listing" Surface "reading"'))
+t.expect(all(p == (18, 1, 15) for p in told(read)), f"arrays, matrices and texts keep what the surface gave them ({told(read)[:2]})")
 t.finish()

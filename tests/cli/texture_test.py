@@ -72,6 +72,17 @@ for whole in ("grain.png", "st.tif", "st.exr", "made.tex"):
     suite.write("cut" + whole, data[:len(data) // 2])
     suite.expect_run(f"half of {whole} is loud and says where", [scene("cut", "cut" + whole)], 3, "cut" + whole, "cut.rib:7", "magenta")
 suite.expect_run("a missing one too", [scene("absent", "absent.png")], 3, "absent.png", "absent.rib:7", "magenta")
+
+# Filters that are flat or very long. OpenImageIO aborts where they have blur.
+png("ramp.png", 64, lambda x, y: (4 * x,) * 3)
+for k, (at, wanted) in enumerate((("s, s", 0.5), ("s, s + t * 1e-6", 0.5), ("s, 0.5 + (s - t) * 1e-3", 0.5), ("s * 1e12, t", None), ("s * 1e25, t * 1e25", None),
+                                  ("s * 1e-20, s * 1e20", None))):
+    for widths in ('"blur", 0.02', '"blur", 0.02, "swidth", 0', '"width", 1'):
+        suite.write(f"flat{k}.sl", f'surface flat{k}() {{ Ci = float texture("ramp.png", {at}, {widths}); Oi = 1; }}')
+        suite.expect_run(f"texture at {at} with {widths}", [scene(f"flat{k}", "", surface=f'Surface "flat{k}"')], 0)
+        mean = red(f"flat{k}")["mean"]
+        suite.expect(0 <= mean <= 1 if wanted is None else abs(mean - wanted) < 0.04, f"has a mean that makes sense: {mean}")
+
 suite.expect_run("little memory changes no picture", ["--texture-memory", "1M", scene("small", "grain.png")], 0)
 suite.expect(red("small") == red("st"), "the same texels")
 suite.finish()

@@ -9,12 +9,13 @@
 namespace tomales {
 namespace {
 
-/// Returns in words which plane of the view has all of `bound` on its wrong side.
-std::string sideOf(const Bound3& bound, const Camera& camera) {
+/// Returns in words which plane of the view has all of `bound` on its wrong side. oneSided: Sides 1 hides something.
+std::string sideOf(const Bound3& bound, const Camera& camera, bool oneSided) {
   if (bound.hi.z < camera.nearClip())
     return bound.hi.z < 0 ? "behind the camera, which looks along +z" : "nearer than the near clipping plane";
   if (bound.lo.z > camera.farClip()) return "beyond the far clipping plane";
-  return "outside the view, clipped, or too thin to meet a sample";
+  const std::string turned = oneSided ? "turned away from the camera (Sides 1), " : "";
+  return "outside the view, clipped, " + turned + "or too thin to meet a sample";
 }
 
 }  // namespace
@@ -24,12 +25,15 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
   if (!whole || !hasGeometry(scene)) return;
   const Camera camera(scene.options);
   size_t unseen = 0;
+  bool oneSided = false;
   Bound3 bound;
   for (const Object& object : scene.objects)
-    if (object.attributes->visibility.camera)
+    if (object.attributes->visibility.camera) {
       bound.extend(cameraBound(object));
-    else
+      oneSided |= object.attributes->sides == 1;
+    } else {
       ++unseen;
+    }
   std::string why;
   if (scene.objects.empty())
     why = scene.procedurals.empty() ? "there is no geometry between WorldBegin and WorldEnd"
@@ -40,7 +44,7 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
   else
     why = fmt::format(
         "what the camera might see lies {}: in camera space from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
-        sideOf(bound, camera), bound.lo.x, bound.lo.y, bound.lo.z, bound.hi.x, bound.hi.y, bound.hi.z);
+        sideOf(bound, camera, oneSided), bound.lo.x, bound.lo.y, bound.lo.z, bound.hi.x, bound.hi.y, bound.hi.z);
   log.report(Severity::Missing, "frame-empty", scene.where, "nothing is to be seen in this frame: " + why);
 }
 
