@@ -111,5 +111,5 @@ t.write("reading.sl", 'surface reading() { float w[2] = {9, 9}, still[2] = {9, 9
         'float known = displacement("w", w) + displacement("m", m) + displacement("g", g); Oi = 1;'
         'Ci = color(known + w[0] + comp(m, 1, 1), match("own", g), 10 * displacement("still", still) + still[1]); }')
 read, _ = render("reading", scene('Displacement "listing" Surface "reading"'))
-t.expect(all(p == (18, 1, 15) for p in told(read)), f"arrays, matrices and texts keep what the surface gave them ({told(read)[:2]})")
+t.expect(all(abs(a - 18) + abs(b - 1) + abs(c - 15) < 1e-3 for a, b, c in told(read)), f"arrays, matrices and texts keep what the surface gave them ({told(read)[:2]})")
 t.finish()
