@@ -135,6 +135,6 @@ t.expect_run("a wall", ["wall.rib", "-o", "wall.exr"], 0)
 wall = pixels(t.folder / "wall.exr")
 t.expect(min(p[0] for p in wall.values()) > 0.999, f"calculatenormal() of a polygon is its normal ({min(p[0] for p in wall.values()):.3f})")
 
-t.write("other.rib", f'Format 8 8 1 WorldBegin Surface "told" {PATCH} "constant float tint" [0.5] WorldEnd')
+t.write("other.rib", f'Format 8 8 1 WorldBegin Translate 0 0 1 Surface "told" {PATCH} "constant float tint" [0.5] WorldEnd')
 t.expect_run("a primitive variable of another type", ["other.rib", "-o", "other.exr"], 0, "shader-parameter-type", 'parameter "tint"')
 t.finish()
