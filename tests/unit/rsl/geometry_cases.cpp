@@ -83,6 +83,10 @@ Cases geometryCases() {
        [](float i) {
          return 2 * at(i) + Vec3{1, 2, 3};
        }},
+      {"ptransform is another name of transform", "w = vector ptransform(\"world\", P);",
+       [](float i) {
+         return 2 * at(i) + Vec3{1, 2, 3};
+       }},
       {"transform between spaces", "w = vector transform(\"object\", \"world\", P);",
        [](float i) {
          return 2 * at(i) + Vec3{1, 2, 3};
