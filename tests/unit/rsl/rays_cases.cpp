@@ -27,7 +27,8 @@ Cases rayCases() {
        "color c = 0; float d = 0; point p = 0, q = 0; vector n = 0, r = 0; x = fulltrace(P, N, c, d, p, n, q, r) == d;",
        1},
       {"rayhittest", "point p = 0; vector n = 0; x = rayhittest(P, N, p, n) > -1;", 1},
-      {"rayserver, whose points and directions are in world space", "c = rayserver(P, vector (0, 0, 1));",
+      {"rayserver, whose points and directions are in world space",
+       "c = rayserver(transform(\"world\", P), vtransform(\"world\", vector (0, 0, 1)));",
        [](float i) {
          return 2 * at(i) + Vec3{1, 2, 3} + Vec3{0, 0, 2};
        }},
