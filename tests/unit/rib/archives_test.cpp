@@ -188,5 +188,18 @@ TEST(System, RunsWhenAllowedAndReportsFailure) {
   EXPECT_NE(r.log.entries()[0].message.find("exit code 4"), std::string::npos);
 }
 
+TEST(Procedural, FollowsReferencesToThePatternsBeforeIt) {
+  const std::string open = "Procedural \"DelayedReadArchive\" [\"a\"] [-1 1 -1 1 -1 1]\n";
+  const Reading r(inWorld(
+      "ArchiveBegin \"a\" Bxdf \"PxrDiffuse\" \"m\" \"reference color diffuseColor\" "
+      "\"wood:resultRGB\" " +
+      kSphere + "ArchiveEnd\n" + open + "Pattern \"PxrTexture\" \"wood\" \"string filename\" \"wood.tif\"\n" + open));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.log.count("rib-reference"), 1) << "the first procedural does not know what follows it";
+  int textured = 0;
+  for (size_t i = 0; i < 2; ++i) textured += r.attributes(i).surface->name == "paintedplastic";
+  EXPECT_EQ(textured, 1);
+}
+
 }  // namespace
 }  // namespace tomales
