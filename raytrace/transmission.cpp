@@ -62,18 +62,18 @@ struct Asked {
 std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std::vector<SampleName>& names,
                                          const ShadingSystem& shading, const ShadeContext& context,
                                          int64_t& adjusted) const {
-  std::vector<vec3> clear(rays.size(), vec3(1));
+  std::vector<vec3> transmitted(rays.size(), vec3(1));
   Asked asked;
   for (size_t r = 0; r < rays.size(); ++r) {
     if (!traceable(rays[r])) continue;
     const Layers layers = layersOf(*impl_, rays[r]);
-    if (layers.blocked) clear[r] = vec3(0);
+    if (layers.blocked) transmitted[r] = vec3(0);
     adjusted += layers.adjusted;
     for (const PolygonHit& hit : layers.hits)
-      if (impl_->knowsOpacity(hit.group)) clear[r] *= glm::clamp(impl_->transmittance(hit), 0.0f, 1.0f);
-    if (clear[r] != vec3(0) && !impl_->volumes.none())
-      clear[r] *= impl_->volumes.passed(rays[r], rays[r].tMax, kMaskTransmission);
-    if (clear[r] == vec3(0)) continue;
+      if (impl_->knowsOpacity(hit.group)) transmitted[r] *= glm::clamp(impl_->transmittance(hit), 0.0f, 1.0f);
+    if (transmitted[r] != vec3(0) && !impl_->volumes.none())
+      transmitted[r] *= impl_->volumes.passed(rays[r], rays[r].tMax, kMaskTransmission);
+    if (transmitted[r] == vec3(0)) continue;
     for (const PolygonHit& hit : layers.hits) {
       if (impl_->knowsOpacity(hit.group)) continue;
       asked.rayOf.push_back(r);
@@ -82,14 +82,14 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
       asked.names.push_back(names[r]);
     }
   }
-  if (asked.hits.empty()) return clear;
+  if (asked.hits.empty()) return transmitted;
   ShadeContext inside = context;
   inside.kind = RayKind::Transmission;
   HitAnswers answers;
   shadeHits(asked.rays, asked.hits, asked.names, shading, inside, HitQuestion(), answers);
   for (size_t k = 0; k < asked.hits.size(); ++k)
-    clear[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
-  return clear;
+    transmitted[asked.rayOf[k]] *= 1.0f - glm::clamp(answers.opacity[k], 0.0f, 1.0f);
+  return transmitted;
 }
 
 }  // namespace tomales

@@ -63,9 +63,9 @@ void traceShadows(const GiState& state, const ShadePoints& points, const uint8_t
   const ShadowBatch shadows =
       shadowRaysOf(*tools->rays, state.scene, points, active, toward, asked, filter, context, light);
   int64_t adjusted = 0;
-  const std::vector<vec3> clear =
+  const std::vector<vec3> transmittance =
       tools->rays->transmission(shadows.rays, shadows.names, *tools->shading, context, adjusted);
-  auto first = clear.begin();
+  auto first = transmittance.begin();
   for (const auto [i, times] : shadows.lit) {
     const vec3 share = std::accumulate(first, first + times, vec3(0)) / static_cast<float>(times);
     first += times;

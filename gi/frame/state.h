@@ -11,8 +11,8 @@ namespace tomales {
 /// The light of caches under the gains of groups, made when it is first asked for.
 struct MixedLight {
   std::once_flag once;
-  std::vector<std::span<const IrradianceExpansion>>
-      ofCaches;  ///< Indexed as GiState::caches (IrradianceCache::cachedMix).
+  /// Indexed as GiState::caches (IrradianceCache::cachedMix).
+  std::vector<std::span<const IrradianceExpansion>> ofCaches;
 };
 
 struct GiState {

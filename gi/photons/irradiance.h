@@ -23,6 +23,8 @@ inline constexpr const char* kPathPower = "pathpower";
 /// Channels of photons on surfaces, in W. kIndirectPower leaves out photons that came straight from lights, and gives
 /// "indirect" (W/m2).
 inline constexpr const char *kPower = "power", *kIndirectPower = "indirectpower";
+/// Channels of their irradiance, in W/m2.
+inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 /// Returns the place of the power of photons on surfaces, three floats; -1 if they have none.
 inline int surfacePowerOffset(const std::vector<CloudChannel>& channels) {
   return std::max(offsetOf(channels, kPower, 3), offsetOf(channels, kIndirectPower, 3));
@@ -33,7 +35,6 @@ inline int powerOffset(const std::vector<CloudChannel>& channels) {
 }
 /// Throws FileError unless a file has one of these channels of photons on surfaces.
 void requirePhotons(const PointFile& file);
-inline constexpr const char *kIrradiance = "irradiance", *kIndirectIrradiance = "indirect";
 
 /// Sums over a part of the picture.
 struct PictureShare {

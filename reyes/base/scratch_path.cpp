@@ -59,6 +59,17 @@ void removeStale(const fs::path& folder, const std::string& prefix) {
     if (isScratchName(it->path().filename().string(), prefix)) removeIfStale(it->path());
 }
 
+/// Returns an open file, or -1 with EEXIST if another process took the folder for stale before it was open.
+int makeFolder(const fs::path& path) {
+  if (::mkdir(path.c_str(), 0700) != 0) return -1;
+  const int file = openToLock(path);
+  if (file >= 0) return file;
+  const int problem = errno == ENOENT ? EEXIST : errno;
+  ::rmdir(path.c_str());
+  errno = problem;
+  return -1;
+}
+
 }  // namespace
 
 ScratchPath::ScratchPath(const fs::path& folder, const std::string& stem, Kind kind) {
@@ -75,15 +86,8 @@ ScratchPath::ScratchPath(const fs::path& folder, const std::string& stem, Kind k
 
 /// Returns false if the name is taken, or if another process took this for stale before it was locked.
 bool ScratchPath::create(Kind kind) {
-  if (kind == Kind::File)
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  else if (::mkdir(path_.c_str(), 0700) == 0)
-    if ((descriptor_ = openToLock(path_)) < 0) {
-      if (errno == ENOENT) return false;
-      const int problem = errno;
-      ::rmdir(path_.c_str());
-      errno = problem;
-    }
+  constexpr int kNewFile = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  descriptor_ = kind == Kind::File ? ::open(path_.c_str(), kNewFile, 0666) : makeFolder(path_);
   if (descriptor_ < 0 && errno != EEXIST)
     throw fs::filesystem_error("cannot be made", path_, {errno, std::generic_category()});
   if (descriptor_ < 0) return false;

@@ -52,7 +52,7 @@ const PictureFormat* formatOfType(std::string_view displayType) {
 }
 
 const PictureFormat* formatOfExtension(const std::string& path) {
-  const std::string extension = lowerCase(std::filesystem::path(path).extension().string());
+  const std::string extension = endingOf(path);
   for (const PictureFormat* f : pictureFormats())
     if (has(f->extensions, extension)) return f;
   return nullptr;

@@ -104,28 +104,46 @@ std::vector<int32_t> Lowering::arguments(const Expr& e, const Builtin& b, size_t
 }
 
 int32_t Lowering::builtin(const Expr& e, const Builtin& b) {
-  using L = Lowering;
-  static const std::map<Emit, int32_t (Lowering::*)(const Expr&, const Builtin&)> table = {
-      {Emit::Instruction, &L::instruction},
-      {Emit::Fold, &L::fold},
-      {Emit::Component, &L::component},
-      {Emit::SetComponent, &L::setComponent},
-      {Emit::Derivative, &L::derivative},
-      {Emit::Normal, &L::calculatedNormal},
-      {Emit::Spline, &L::spline},
-      {Emit::Transform, &L::transform},
-      {Emit::ColorTransform, &L::colorTransform},
-      {Emit::Texture, &L::texture},
-      {Emit::Environment, &L::environment},
-      {Emit::Shadow, &L::shadow},
-      {Emit::List, &L::withList},
-      {Emit::Traced, &L::withList},
-      {Emit::Ask, &L::ask},
-      {Emit::ShaderName, &L::shaderName},
-      {Emit::Print, &L::print},
-      {Emit::ArrayLength, &L::arrayLength},
-      {Emit::Plugin, &L::plugin}};
-  return (this->*table.at(b.emit))(e, b);
+  switch (b.emit) {
+    case Emit::Instruction:
+      return instruction(e, b);
+    case Emit::Fold:
+      return fold(e, b);
+    case Emit::Component:
+      return component(e, b);
+    case Emit::SetComponent:
+      return setComponent(e, b);
+    case Emit::Derivative:
+      return derivative(e, b);
+    case Emit::Normal:
+      return calculatedNormal(e, b);
+    case Emit::Spline:
+      return spline(e, b);
+    case Emit::Transform:
+      return transform(e, b);
+    case Emit::ColorTransform:
+      return colorTransform(e, b);
+    case Emit::Texture:
+      return texture(e, b);
+    case Emit::Environment:
+      return environment(e, b);
+    case Emit::Shadow:
+      return shadow(e, b);
+    case Emit::List:
+    case Emit::Traced:
+      return withList(e, b);
+    case Emit::Ask:
+      return ask(e, b);
+    case Emit::ShaderName:
+      return shaderName(e, b);
+    case Emit::Print:
+      return print(e, b);
+    case Emit::ArrayLength:
+      return arrayLength(e, b);
+    case Emit::Plugin:
+      return plugin(e, b);
+  }
+  return 0;
 }
 
 int32_t Lowering::instruction(const Expr& e, const Builtin& b) {

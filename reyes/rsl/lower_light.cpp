@@ -93,12 +93,12 @@ void Lowering::illuminate(const Stmt& s) {
   const int32_t from = value(*s.exprs[0]), L = global(Global::L);
   const int32_t ray = compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple);
   const bool cone = s.exprs.size() > 1;
-  // A cone gives the direction where it shines. Elsewhere another one's stays; where there is none yet, it has to be
-  // some direction all the same, as surfaces divide by its length.
-  const auto whereNone = [&] {
-    return compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
-  };
-  copy(L, cone && shinesFromMany_ ? whereNone() : ray);
+  int32_t direction = ray;
+  // Where one cone of several does not shine, another one's direction stays. Where there is none yet, L has to be some
+  // direction all the same, as surfaces divide by its length.
+  if (cone && shinesFromMany_)
+    direction = compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
+  copy(L, direction);
   if (!cone) return statement(*s.body[0]);
   const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
   const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {ray}), axis});

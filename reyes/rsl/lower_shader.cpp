@@ -176,16 +176,19 @@ bool Lowering::constantDefault(const Variable& v, Parameter& p) {
   return constants;
 }
 
-// A scene may give the first elements of an array alone.
+// A scene may give the first elements of an array alone, so the last one tells whether any is missing.
 void Lowering::computedDefault(const Variable& v, int32_t reg) {
   if (!v.type.isArray()) return ifElse(isMissing(reg), block([&] { copy(reg, value(*v.initial, v.type)); }), {});
   const int32_t whole = add({.shape = shape(reg), .origin = Origin::Variable, .length = v.type.length});
-  initialiseArray(v, whole);
-  for (int32_t k = 0; k < v.type.length && hasRoom(); ++k) {
-    const int32_t at = number(static_cast<float>(k));
-    const int32_t missing = isMissing(element(reg, at));
-    ifElse(missing, block([&] { emit(Op::SetElement, {reg}, {at, element(whole, at)}); }), {});
-  }
+  const auto missing = [&](int32_t at) { return isMissing(element(reg, at)); };
+  const auto complete = [&] {
+    initialiseArray(v, whole);
+    for (int32_t k = 0; k < v.type.length && hasRoom(); ++k) {
+      const int32_t at = number(static_cast<float>(k));
+      ifElse(missing(at), block([&] { emit(Op::SetElement, {reg}, {at, element(whole, at)}); }), {});
+    }
+  };
+  ifElse(missing(number(static_cast<float>(v.type.length - 1))), block(complete), {});
 }
 
 int32_t Lowering::isMissing(int32_t reg) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reyes/shader/shadeops.h"
@@ -62,51 +63,40 @@ std::string format(const std::string& pattern, const Values&... values) {
 }
 
 namespace text_detail {
-/// Returns the number after '{' of a repetition ("{2,5}": 5; "{2,}": 2), and moves `at` to its '}'.
-inline double repetitions(const std::string& pattern, size_t& at) {
-  double out = 1, number = 0;
-  for (++at; at < pattern.size() && pattern[at] != '}'; ++at) {
-    const char c = pattern[at];
-    number = c >= '0' && c <= '9' ? 10 * number + (c - '0') : 0;
-    out = std::max(out, number);
+/// Returns the larger number of the repetition that begins at `at` ("{2,5}": 5; "{2,}": 2), or 1 if none begins there.
+inline double repetitions(const std::string& pattern, size_t at) {
+  const size_t end = pattern.find_first_not_of("0123456789,", at + 1);
+  if (end == pattern.npos || pattern[end] != '}') return 1;
+  double most = 1, number = 0;
+  while (++at < end) {
+    number = pattern[at] == ',' ? 0 : 10 * number + (pattern[at] - '0');
+    most = std::max(most, number);
   }
-  return out;
+  return most;
 }
 }  // namespace text_detail
 
 /// Tells whether an extended regular expression is so long, or repeats so much within what is repeated
-/// ("((a{255}){255}){255}"), that to prepare it might take more memory than there is.
+/// ("((a{255}){255}){255}"), that to prepare it might take more memory than there is. The characters are counted with
+/// their repetitions. The count is never too low: what repeats more than one character counts for all that is before.
 inline bool isHugePattern(const std::string& pattern) {
   constexpr size_t kLongest = 4096;
-  constexpr double kMostAtoms = 1 << 16;
+  constexpr double kMostCharacters = 1 << 16;
   if (pattern.size() > kLongest) return true;
-  std::vector<double> groups{0};  // the atoms of each group that is open, with their repetitions
-  double last = 0;                // those of the last atom or group
-  for (size_t i = 0; i < pattern.size(); ++i) {
-    if (pattern[i] == '(') {
-      groups.push_back(0);
-      last = 0;
-    } else if (pattern[i] == ')' && groups.size() > 1) {
-      last = groups.back();
-      groups.pop_back();
-      groups.back() += last;
-    } else if (pattern[i] == '{') {
-      const double times = text_detail::repetitions(pattern, i);
-      groups.back() += last * (times - 1);
-      last *= times;
-    } else {
-      groups.back() += last = 1;
-    }
-    if (groups.back() > kMostAtoms) return true;
+  double characters = 0;
+  for (size_t i = 0; i < pattern.size(); ++i, ++characters) {
+    if (pattern[i] != '{' || i == 0) continue;
+    const double times = text_detail::repetitions(pattern, i);
+    const bool ofOne = std::string_view(")}*+?").find(pattern[i - 1]) == std::string_view::npos;
+    characters = ofOne ? characters + times - 1 : characters * times;
   }
-  return false;
+  return characters > kMostCharacters;
 }
 
 /// Tells whether an extended regular expression fits any part of the text. One that is malformed or huge fits nothing.
 inline bool match(const std::string& pattern, const std::string& text) {
   regex_t expression;
-  if (isHugePattern(pattern)) return false;
-  if (regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
+  if (isHugePattern(pattern) || regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
   const bool fits = regexec(&expression, text.c_str(), 0, nullptr, 0) == 0;
   regfree(&expression);
   return fits;

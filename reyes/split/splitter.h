@@ -1,5 +1,6 @@
 // Private to split: halves the patches of one object until their pieces fit into grids.
 #pragma once
+#include "reyes/base/stop.h"
 #include "reyes/split.h"
 #include "reyes/split/object_view.h"
 #include "reyes/split/rate.h"
@@ -87,7 +88,7 @@ class Splitter {
 
   SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const;
   bool isStill() const { return object_.keyTimes.size() == 1; }
-  bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
+  bool stopped() const { return isSet(stop_); }
 
   const Object& object_;
   const int index_, gridSize_;

@@ -51,8 +51,6 @@ constexpr std::string_view kPictureMagic[] = {
     {"\x76\x2f\x31\x01", 4}, {"II*\0", 4},        {"MM\0*", 4}, {"II+\0", 4}, {"MM\0+", 4},
     {"\x89PNG\r\n", 6},      {"\xff\xd8\xff", 3}, "#?RADIANCE", "#?RGBE"};
 
-std::string endingOf(const std::string& file) { return lowerCase(std::filesystem::path(file).extension().string()); }
-
 bool beginsAsPicture(const std::string& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return false;  // a pipe gives its bytes only once

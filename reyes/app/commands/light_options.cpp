@@ -106,8 +106,7 @@ void addAnimationTarget(CLI::App& app, QualitySettings& s) {
             "(default: the first, the middle and the last)");
   app.add_option("--animation-settings", s.animationSettings,
                  "Store the settings that were found for the animation in this file; if it exists, use its settings: "
-                 "runs that make "
-                 "other frames of the animation then light them alike")
+                 "runs that make other frames of the animation then light them alike")
       ->type_name("FILE.json");
   app.add_option("--audit-every", s.auditEvery,
                  "Audit the frames whose number N divides, with the settings of the animation; 0: none (default 10)")

@@ -13,8 +13,6 @@
 namespace tomales {
 namespace {
 
-std::string endingOf(const std::string& name) { return lowerCase(std::filesystem::path(name).extension().string()); }
-
 /// Tells whether a text seems to name a picture.
 bool namesMap(const std::string& text) {
   const std::vector<std::string>& endings = pictureEndings();

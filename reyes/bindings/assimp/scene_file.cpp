@@ -17,8 +17,6 @@ namespace {
 /// Meshes of more numbers are binary archives beside the RIB.
 constexpr size_t kMostInline = 2000;
 
-std::string endingOf(const std::string& file) { return lowerCase(std::filesystem::path(file).extension().string()); }
-
 bool isGltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; }
 
 /// Files for printers have z up; Assimp turns other formats that say so.

@@ -16,6 +16,7 @@ Cases textCases() {
        {.message = "a text would be longer than"}},
       {"match of repetitions side by side", "x = match(\"^[a-z]{1,64}_[a-z]{1,64}_[0-9]{1,4}$\", \"wood_oak_3\");", 1},
       {"match of a pattern that repeats too often", "x = match(\"((((a{1,255}){1,255}){1,255}){1,255})\", \"a\");", 0},
+      {"match of a repeated group", "x = match(\"^(ab){2,3}[{]$\", \"abab{\");", 1},
       {"concat of a parameter",
        "if (concat(p, \".tx\") == \"wood.tx\") x = 1;",
        1,
