@@ -1,9 +1,5 @@
 // The answers to a page that asks about a shot and its shading.
-#include <set>
-
 #include "reyes/app/relight/relighting.h"
-#include "reyes/app/relight/relighting_layers.h"
-#include "reyes/surface_variables.h"
 
 namespace tomales {
 namespace {
@@ -21,7 +17,6 @@ mat4 pixelFromWorld(const Scene& scene, const PixelRect& window) {
 }
 
 Json jsonOf(const mat4& m) { return std::vector<float>(&m[0][0], &m[0][0] + 16); }
-Json jsonOf(const PixelRect& r) { return {r.x0, r.y0, r.x1, r.y1}; }
 
 Json jsonOf(const EditableShader& s) {
   Json params = Json::array();
@@ -36,47 +31,31 @@ Json jsonOf(const EditableShader& s) {
 
 }  // namespace
 
-std::vector<std::string> variablesOf(const Options& options) {
-  std::set<std::string> out;
-  for (const SurfaceVariable& v : kSurfaceVariables)
-    if ((v.kind == ChannelKind::Variable && v.source != VariableSource::Noise) || v.name == "a" || v.name == "z")
-      out.emplace(v.name);
-  for (const auto& [name, channel] : options.channels) out.insert(name);
-  return {out.begin(), out.end()};
-}
-
-vec3 variableAt(const Image& rows, int x, int y, const std::string& variable) {
-  constexpr int kAlpha = 3, kDepth = 4, kFirst = 5;  // R G B A Z come first
-  const float* pixel = rows.at(x, y);
-  if (rows.channelCount() >= kFirst + 3) return {pixel[kFirst], pixel[kFirst + 1], pixel[kFirst + 2]};
-  return vec3(pixel[rows.channelCount() > kFirst ? kFirst : variable == "z" ? kDepth : kAlpha]);
-}
-
 Json Relighting::preparation() const {
-  const std::lock_guard lock(mutex_);
-  return {{"doing", doing_}, {"done", done_}};
+  const WorkStatus::Now now = status_.now();
+  return {{"doing", now.doing}, {"done", now.done}};
 }
 
 Json Relighting::description() const {
-  const std::lock_guard lock(mutex_);
-  const mat4 pixels = pixelFromWorld(files_->dfb().shot().scene, window_);
-  Json layers = Json::array(), objects = Json::array();
-  for (size_t i = 0; i + 1 < list_.size(); ++i)
-    layers.push_back({{"name", list_[i].name}, {"lights", list_[i].handles}});
-  for (const EditableObject& o : editable_->objects())
+  const auto files = shot_.files();
+  const Scene& scene = files->dfb().shot().scene;
+  const PixelRect& window = parts_->window();
+  const mat4 pixels = pixelFromWorld(scene, window);
+  Json objects = Json::array();
+  for (const EditableObject& o : editable().objects())
     objects.push_back({{"name", o.name}, {"color", {o.color.x, o.color.y, o.color.z}}, {"lights", o.lights}});
-  Json out = {{"file", settings_.input.files.front()},
-              {"width", window_.width()},
-              {"height", window_.height()},
-              {"exposure", editable_->exposure()},
-              {"present", tomales::jsonOf(present_)},
+  Json out = {{"file", file_},
+              {"width", window.width()},
+              {"height", window.height()},
+              {"exposure", editable().exposure()},
+              {"present", tomales::jsonOf(session_->present())},
               {"sharesBounces", sharesBounces_},
-              {"layers", layers},
+              {"layers", session_->layers()},
               {"objects", objects},
-              {"variables", variablesOf(files_->dfb().shot().scene.options)}};
+              {"variables", variablesOf(scene.options)}};
   for (size_t slot = 0; slot < kShaderSlots; ++slot) {
     Json& shaders = out[kSlots[slot].key] = Json::array();
-    for (const EditableShader& s : editable_->of(static_cast<ShaderSlot>(slot))) {
+    for (const EditableShader& s : editable().of(static_cast<ShaderSlot>(slot))) {
       shaders.push_back(jsonOf(s));
       if (slot == kLights) shaders.back()["pixelFromShader"] = jsonOf(pixels * s.worldFromShader);
     }
@@ -87,7 +66,7 @@ Json Relighting::description() const {
 Json Relighting::offered() const {
   Json out = Json::object();
   for (size_t slot = 0; slot < kShaderSlots; ++slot)
-    out[kSlots[slot].key] = editable_->offered(static_cast<ShaderSlot>(slot));
+    out[kSlots[slot].key] = editable().offered(static_cast<ShaderSlot>(slot));
   return out;
 }
 
@@ -95,68 +74,36 @@ Json Relighting::offeredShader(const std::string& kind, const std::string& name)
   const auto slot = std::ranges::find(kSlots, kind, &ShaderSlotInfo::key);
   const EditableShader* shader = slot == std::end(kSlots)
                                      ? nullptr
-                                     : editable_->describe(static_cast<ShaderSlot>(slot - std::begin(kSlots)), name);
+                                     : editable().describe(static_cast<ShaderSlot>(slot - std::begin(kSlots)), name);
   if (!shader) throw BadRequest("there is no such shader");
   return jsonOf(*shader);
 }
 
 Json Relighting::status() const {
-  const std::lock_guard lock(mutex_);
-  Json layers = Json::array();
-  const auto left = [](const LayerParts& parts) {
-    return static_cast<double>(parts.old()) / static_cast<double>(parts.count());
-  };
-  for (size_t i = 0; i + 1 < list_.size(); ++i) {
-    const Layer& layer = list_[i];
-    vec3 unit(1.0f);
-    if (layer.handles.size() == 1)
-      for (const EditableParam& p : shaderUnder(present_, kLights, layer.handles.front(), *editable_).params)
-        if (isFactor(p.role)) {
-          const std::vector<float> value = unitOf(p);
-          unit *= value.size() == 3 ? vec3(value[0], value[1], value[2]) : vec3(value[0]);
-        }
-    layers.push_back({{"version", layer.parts.wanted()},
-                      {"unit", {unit.x, unit.y, unit.z}},
-                      {"old", layer.parts.areOld()},
-                      {"left", left(layer.parts)}});
-  }
-  Json messages = Json::array(), gathered = Json::array();
+  const WorkStatus::Now now = status_.now();  // before the layers, so that they are done if nothing is being done
+  Json out = session_->status();
+  out["doing"] = now.doing;
+  out["done"] = now.done;
+  Json& messages = out["messages"] = Json::array();
   for (const LogEntry& e : log_.entries())
     if (e.severity >= Severity::Warning) messages.push_back(e.message);
-  for (const PixelRect& r : gathered_) gathered.push_back(jsonOf(r));
-  return {
-      {"present", tomales::jsonOf(present_)},
-      {"doing", doing_},
-      {"done", done_},
-      {"layers", layers},
-      {"variable", {{"name", variable_}, {"version", list_.back().parts.wanted()}, {"left", left(list_.back().parts)}}},
-      {"notLinear", notLinear_},
-      {"stale", stale_},
-      {"gathered", gathered},
-      {"gathering", toGather_.has_value()},
-      {"checked", checked_},
-      {"messages", messages},
-      {"imager", files_->dfb().shot().scene.options.imager.has_value() || !present_.shaders[kImagers].empty()},
-      {"bytes", layers_->bytes()}};
-}
-
-std::optional<int> groupAt(const DeepTile& tile, int x, int y) {
-  const DeepPixel& pixel = tile.pixel(x, y);
-  if (pixel.count == 0) return std::nullopt;
-  const Facet& nearest = tile.facets[tile.fragments[pixel.first].facet];
-  return tile.batches[static_cast<size_t>(nearest.batch)].group();
+  out["imager"] =
+      shot_.files()->dfb().shot().scene.options.imager.has_value() || !session_->present().shaders[kImagers].empty();
+  out["bytes"] = layers().bytes();
+  return out;
 }
 
 Json Relighting::objectAt(int x, int y) const {
-  const int atX = window_.x0 + x, atY = window_.y0 + y;
-  if (!window_.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
-  const auto shot = files();
+  const PixelRect& window = parts_->window();
+  const int atX = window.x0 + x, atY = window.y0 + y;
+  if (!window.contains(atX, atY)) throw BadRequest("this pixel is outside of the picture");
+  const auto files = shot_.files();
+  const Shot& shot = files->dfb().shot();
   std::string error;
-  const auto tile = shot->dfb().tile(shot->dfb().shot().frame.tileOf(atX, atY), error);
-  const std::optional<int> group = tile ? groupAt(*tile, atX, atY) : std::nullopt;
-  if (!group) return Json::object();
-  const Attributes& a = *shot->dfb().shot().scene.groups[static_cast<size_t>(*group)].attributes;
-  return {{"object", a.name}, {"shader", a.surface ? a.surface->name : "defaultsurface"}};
+  const auto tile = files->dfb().tile(shot.frame.tileOf(atX, atY), error);
+  const Attributes* nearest = tile ? nearestAt(shot, *tile, atX, atY) : nullptr;
+  if (!nearest) return Json::object();
+  return {{"object", nearest->name}, {"shader", nearest->surface ? nearest->surface->name : "defaultsurface"}};
 }
 
 }  // namespace tomales

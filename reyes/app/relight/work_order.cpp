@@ -1,0 +1,85 @@
+#include "reyes/app/relight/work_order.h"
+
+namespace tomales {
+namespace {
+
+int64_t squaredDistance(const PixelRect& part, const ivec2& from) {
+  const int64_t dx = (part.x0 + part.x1) / 2 - from.x, dy = (part.y0 + part.y1) / 2 - from.y;
+  return dx * dx + dy * dy;
+}
+
+Step stepFor(Step::Kind kind, const EditedLayers& layers, size_t layer, size_t part = 0) {
+  return {kind,
+          layer,
+          part,
+          layers[layer].parts.wanted(),
+          layers.editFor(layer),
+          layer == layers.variableLayer() ? layers.variable() : "",
+          {}};
+}
+
+}  // namespace
+
+// Returns the old part that is nearest to the pointer. Of several layers there it takes the earliest, because the light
+// of what shines by itself is subtracted from the other layers.
+std::optional<Step> WorkOrder::nextPart(size_t from, size_t to, const EditedLayers& layers,
+                                        const PictureParts& parts) const {
+  std::optional<std::pair<size_t, size_t>> best;
+  int64_t least = std::numeric_limits<int64_t>::max();
+  for (size_t layer = from; layer < to; ++layer)
+    for (size_t part = 0; part < parts.count(); ++part) {
+      if (!layers[layer].parts.isOld(part) || (only && !only->overlaps(parts[part]))) continue;
+      const int64_t distance = squaredDistance(parts[part], pointer);
+      if (distance >= least) continue;
+      least = distance;
+      best = {layer, part};
+    }
+  if (!best) return std::nullopt;
+  return stepFor(Step::Part, layers, best->first, best->second);
+}
+
+// First of all comes the whole picture, and after an edit when the page asks for it; then what is shown instead; then
+// all layers coarse, if they were shaded before.
+std::optional<Step> WorkOrder::next(const EditedLayers& layers, const PictureParts& parts) const {
+  const size_t last = layers.variableLayer();
+  if (toGather) return Step{Step::Gather, 0, 0, 0, layers.present(), "", *toGather};
+  if (wantsWhole)
+    if (auto step = nextPart(kWhole, kGlow, layers, parts)) return step;
+  if (!layers.variable().empty())
+    if (auto step = nextPart(last, last + 1, layers, parts)) return step;
+  for (size_t layer = kGlow; layer < last && isRehearsed; ++layer)
+    if (layers[layer].parts.areOld() && layers[layer].coarse != layers[layer].parts.wanted())
+      return stepFor(Step::Coarse, layers, layer);
+  if (auto step = nextPart(kGlow, last, layers, parts)) return step;
+  if (!isChecked && !only) return Step{Step::Check, 0, 0, 0, layers.editFor(kGlow), "", {}};
+  if (!isRehearsed && !only) return Step{Step::Rehearse, 0, 0, 0, layers.editFor(kGlow), "", {}};
+  return std::nullopt;
+}
+
+bool WorkOrder::isWanted(const Step& step, const EditedLayers& layers) const {
+  if (step.kind == Step::Gather) return true;
+  if (step.kind == Step::Check || step.kind == Step::Rehearse) return false;
+  return layers[step.layer].parts.wanted() == step.number;
+}
+
+void WorkOrder::finish(const Step& step, EditedLayers& layers) {
+  switch (step.kind) {
+    case Step::Part:
+      layers[step.layer].parts.take(step.part, step.number);
+      break;
+    case Step::Coarse:
+      layers[step.layer].coarse = step.number;
+      break;
+    case Step::Gather:
+      toGather.reset();
+      break;
+    case Step::Check:
+      isChecked = true;
+      break;
+    case Step::Rehearse:
+      isRehearsed = true;
+      break;
+  }
+}
+
+}  // namespace tomales

@@ -1,0 +1,39 @@
+// What is shaded next of a picture that is relit: what pages ask for, and the order of the steps
+// (docs/decisions/0172). Threads: plain object.
+#pragma once
+#include "reyes/app/relight/edited_layers.h"
+#include "reyes/app/relight/picture_parts.h"
+
+namespace tomales {
+
+/// One step of the work.
+struct Step {
+  enum Kind { Part, Coarse, Gather, Check, Rehearse } kind;
+  size_t layer = 0, part = 0;
+  uint32_t number = 0;  ///< LayerParts::wanted() when it begins.
+  EditState edit{};
+  std::string variable{};
+  PixelRect pixels{};  ///< Those whose light is gathered.
+};
+
+struct WorkOrder {
+  ivec2 pointer;                    ///< The raster pixel near which parts come first.
+  std::optional<PixelRect> only{};  ///< Nothing outside of these pixels is shaded.
+  std::optional<PixelRect> toGather{};
+  bool wantsWhole = true;
+  bool isChecked = false;    ///< It has been checked that the layers add up.
+  bool isRehearsed = false;  ///< The first picture is there, and the rays of the coarse one are known.
+
+  /// Returns nothing if all is done.
+  std::optional<Step> next(const EditedLayers& layers, const PictureParts& parts) const;
+  /// Tells whether a step that is running is of use still.
+  bool isWanted(const Step& step, const EditedLayers& layers) const;
+  /// Notes that a step is done.
+  void finish(const Step& step, EditedLayers& layers);
+
+ private:
+  std::optional<Step> nextPart(size_t fromLayer, size_t toLayer, const EditedLayers& layers,
+                               const PictureParts& parts) const;
+};
+
+}  // namespace tomales
