@@ -69,7 +69,7 @@ using AtlasSource = std::function<std::unique_ptr<const IrradianceAtlas>()>;
 using HitRadianceSource = std::function<std::unique_ptr<const HitRadiance>()>;
 
 /// Tells whether the cache keeps answers of occlusion() and indirectdiffuse() where a group asks for them
-/// (ShadingSystem::asksHemispheres).
+/// (GroupTraits::asksHemispheres).
 bool keepsHemispheres(const GiSettings&);
 
 class GiServices final : public ShadeServices {
@@ -131,7 +131,7 @@ class GiServices final : public ShadeServices {
   /// get the bits that they would get in the run which has gathered.
   std::shared_ptr<LearntLight> learnt() const;
   void useLearnt(std::shared_ptr<LearntLight> learnt);
-  /// Has records keep the share of each of these groups of lights (ShadingSystem::lightGroup), so that they can be
+  /// Has records keep the share of each of these groups of lights (LightTraits::group), so that they can be
   /// mixed; the first is empty and stands for what shines by itself. Call it before the gather pass, or with caches
   /// whose records have these shares. It costs the shading of hits once for each group.
   void keepShares(std::vector<std::string> groups);

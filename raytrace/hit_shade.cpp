@@ -172,7 +172,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
   forEachGroup(scene, hits, [&](int g, std::span<const uint32_t> which) {
     const ShadeGroup& group = scene.groups[static_cast<size_t>(g)];
     const Attributes& attributes = *group.attributes;
-    ShadePoints points(g, floatsOfPoint(group.primvars), shading.wantsSteps(g));
+    ShadePoints points(g, floatsOfPoint(group.primvars), shading.group(g).wantsSteps());
     points.reserve(static_cast<int>(which.size()));
     for (const uint32_t i : which) addPoint(*impl_, rays[i], hits[i], names[i], points);
     const bool shades =
@@ -215,8 +215,9 @@ void RayScene::crossVolumes(const std::vector<Ray>& came, const std::vector<Hit>
   ShadedPoints colors;
   forEachGroup(impl_->scene, left, [&](int g, std::span<const uint32_t> ofGroup) {
     for (const bool inside : {false, true}) {
-      if (!shading.hasVolume(g, inside)) continue;
-      ShadePoints ends(g, floatsOfPoint(impl_->scene.groups[static_cast<size_t>(g)].primvars), shading.wantsSteps(g));
+      if (!shading.group(g).hasVolume(inside)) continue;
+      ShadePoints ends(g, floatsOfPoint(impl_->scene.groups[static_cast<size_t>(g)].primvars),
+                       shading.group(g).wantsSteps());
       std::vector<uint32_t> which;
       for (const uint32_t i : ofGroup) {
         if (hits[i].object < 0 || (dot(rays[i].direction, left[i].geometricNormal) < 0) != inside) continue;

@@ -71,7 +71,7 @@ class Search {
       if (hit.object < 0) return std::nullopt;
       const vec3 P = ray.origin + hit.t * direction;
       const int of = rays_.groupOf(hit);
-      if (shading_.opaque(of))
+      if (shading_.group(of).opaque())
         return Place{P, dot(direction, hit.geometricNormal) > 0 ? -hit.geometricNormal : hit.geometricNormal, of};
       ray = Ray{P, direction};
       ray.spread = kSpread;

@@ -26,7 +26,7 @@ std::vector<bool> constantOpacityOf(const Scene& scene, const ShadingSystem& sha
     const bool varies =
         std::any_of(g.primvars.begin(), g.primvars.end(), [](const Primvar& p) { return p.name == "Os"; });
     const bool asks = g.attributes->transmissionHitMode == HitMode::Shader;
-    constant.push_back(!varies && (!asks || shading.keepsOpacity(static_cast<int>(constant.size()))));
+    constant.push_back(!varies && (!asks || shading.group(static_cast<int>(constant.size())).keepsOpacity()));
   }
   return constant;
 }

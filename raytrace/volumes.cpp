@@ -16,7 +16,7 @@ Volumes::Volumes(const Scene& scene, const ShadingSystem& shading)
   for (const Object& o : scene.objects) {
     const DensityGrid* density = o.attributes->volume && !o.shapes.empty() ? o.shape().density() : nullptr;
     if (!density) continue;
-    const MediumColors medium = shading.medium(o.group, true);
+    const MediumColors medium = shading.group(o.group).medium(true);
     const Visibility& v = o.attributes->visibility;
     list_.push_back({density, o.group, maskOf(v) | (v.camera ? kMaskCamera : 0u),
                      glm::inverse(o.currentFromObject.at(scene.options.shutterOpen)),
@@ -78,7 +78,7 @@ void Volumes::crossOne(std::span<const Crossing> crossings, const std::vector<Ra
                        const std::vector<SampleName>& names, uint32_t turn, const ShadingSystem& shading,
                        const ShadeContext& context, HitAnswers& answers) const {
   const Volume& volume = *crossings[0].volume;
-  ShadePoints ends(volume.group, 0, shading.wantsSteps(volume.group));
+  ShadePoints ends(volume.group, 0, shading.group(volume.group).wantsSteps());
   std::vector<DensityAlongRay> ways;
   std::vector<uint32_t> which;
   for (const Crossing& c : crossings) {

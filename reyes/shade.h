@@ -2,28 +2,17 @@
 // resolved, spaces transformed) and the lights, and asks ShadeServices for all that needs rays or global illumination.
 // All light is in the RSL convention, E/pi. Threads: after construction, every const member may be called concurrently.
 #pragma once
-#include <span>
-
 #include "reyes/base/stats.h"
 #include "reyes/grid.h"
-#include "reyes/shade_services.h"
+#include "reyes/shader_traits.h"
 
 namespace tomales {
 
 class ShaderRegistry;
 
-/// The kind of a light, as far as the renderer can tell without running its shader.
-enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
-
 /// Cells of the brightness of a sky's picture, from pole to pole and around: a cell is a third of a degree high, and
 /// the sun half a degree wide.
 constexpr int kSkyRows = 512, kSkyColumns = 1024;
-
-/// An opening through which a sky lights a room, in current space.
-struct Portal {
-  vec3 corner, u, v;  ///< u and v are edges.
-  vec3 normal;        ///< Its length is the portal's area.
-};
 
 /// Runs a light shader alone, at points that nothing shades, so that photons learn what light goes where. Current
 /// space.
@@ -64,12 +53,10 @@ class ShadingSystem {
   /// shaded.
   void takeFoundPortals();
 
-  /// Tells whether a group hides what is behind it (Os = 1 everywhere and a shader that keeps opacity).
-  bool opaque(int group) const;
-  /// Tells whether a shader of the group asks how values change over the surface (ShadePoints::hasSteps).
-  bool wantsSteps(int group) const;
-  /// Tells whether the group's shader leaves Oi = Os.
-  bool keepsOpacity(int group) const;
+  GroupTraits group(int group) const;
+  /// Pre: `light` is an index in Scene::lights.
+  LightTraits light(int light) const;
+
   /// Runs the displacement shader of the grid's object, if it has one, in place, and recomputes N. The grid must then
   /// be a single piece.
   void displace(Grid& grid) const;
@@ -82,8 +69,6 @@ class ShadingSystem {
   /// Runs the atmosphere, if there is one, between the eye and points that the camera sees. It changes their colours in
   /// place, and ShadedPoints::airCi.
   void atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& context = {}) const;
-  /// Tells whether a volume shader stands inside (Interior) or outside (Exterior) of the group's surfaces.
-  bool hasVolume(int group, bool inside) const;
   /// Runs the volume shader, in place, over the colours that rays bring through the volume to the surface that they
   /// leave. The points are those of the surface, except that P is where each ray ends and I leads there from the
   /// surface. Returns false and leaves `out` alone if there is no volume shader or it has failed.
@@ -96,40 +81,13 @@ class ShadingSystem {
   /// the area light's shader sends from there, on the front, to the origin of the ray. Empty if nothing shines.
   void areaLightRadiance(const ShadePoints& points, std::vector<vec3>& radiance,
                          const ShadeContext& context = {}) const;
-  /// Returns the indirect light switched on for a group, if any: the gather pass must prepare it.
-  const IndirectQuery* indirectQuery(int group) const;
   /// Returns the first request among those of all indirect lights but filters; empty if there are no such lights.
   std::optional<IndirectRequest> indirectRequest() const;
   /// Returns the largest number of samples that an area light asks for; 0 if there is none.
   int mostAreaSamples() const;
   bool needsRays() const;  ///< True if a light or shader will trace rays.
-  /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
-  bool tracesRays(int group) const;
-  /// Tells whether a shader of the group may call occlusion() or indirectdiffuse() so that answers may be interpolated.
-  bool asksHemispheres(int group) const;
 
-  /// Returns LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
-  LightKind lightKind(int light) const;
   void probe(int light, LightProbe& probe) const;
-  /// Returns null if it is missing.
-  const TmShader* lightShader(int light) const;
-  /// Returns the product of those parameters of a light that are factors (isFactor()), where its request gives
-  /// `params`.
-  vec3 lightFactor(int light, const std::vector<Param>& params) const;
-  /// Returns the LightGroup of a light; empty if its shader is missing or it is an indirect light.
-  std::string lightGroup(int light) const;
-  /// Tells whether the light is a sky that is helped by openings which the program finds by itself.
-  bool takesFoundPortals(int light) const;
-  /// Returns the portals of a light of LightKind::Sky: those that it names and that have a place and an area, or those
-  /// that were found for it.
-  std::span<const Portal> portals(int light) const;
-  /// Returns the medium that photons meet inside or outside of a group's surfaces, as its Interior or Exterior says.
-  MediumColors medium(int group, bool inside) const;
-  /// Tells whether the surface of a group adds radiance of its own.
-  bool surfaceEmits(int group) const;
-  /// Tells whether it reflects the same share of Illumination::Unit everywhere (TM_EVEN, and no primitive variable
-  /// makes it differ).
-  bool reflectsEvenly(int group) const;
 
  private:
   struct Impl;

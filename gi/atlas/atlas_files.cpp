@@ -110,7 +110,7 @@ MapNames mapNames(const Scene& scene, const ShadingSystem& shading, const AtlasS
   names.surface = numbered(names.global, own);
   for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g)
     for (const bool inside : {true, false})
-      if (!mediumOf(shading.medium(g, inside), 1).empty()) names.volume = kVolume;
+      if (!mediumOf(shading.group(g).medium(inside), 1).empty()) names.volume = kVolume;
   return names;
 }
 

@@ -14,7 +14,7 @@ std::vector<std::pair<size_t, CacheKey>> keysOf(const GiState& state) {
   std::vector<std::pair<size_t, CacheKey>> keys;
   for (size_t g = 0; g < state.scene.groups.size(); ++g) {
     const int group = static_cast<int>(g);
-    const IndirectQuery* query = state.shading.indirectQuery(group);
+    const IndirectQuery* query = state.shading.group(group).indirectQuery();
     const Attributes& attributes = *state.scene.groups[g].attributes;
     if (attributes.matte || attributes.volume) continue;
     for (const HemisphereQuery& asked : state.hemispheresAsked[g])

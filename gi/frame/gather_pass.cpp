@@ -91,7 +91,7 @@ class GatherPass {
     for (size_t g = 0; g < caches_.ofGroups().size(); ++g)
       for (const size_t c : caches_.ofGroups()[g])
         if (isIndirect(c)) {
-          const IndirectQuery* own = state_.shading.indirectQuery(static_cast<int>(g));
+          const IndirectQuery* own = state_.shading.group(static_cast<int>(g)).indirectQuery();
           if (!query) query = own;
           bounces = std::max(bounces, bouncesFor(state_, *own));
         }

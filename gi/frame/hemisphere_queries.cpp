@@ -49,7 +49,8 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
     if (!tile) return;
     const std::lock_guard lock(merging);
     for (const ShadePoints& batch : tile->batches)
-      if (state.shading.asksHemispheres(batch.group())) add(examples[static_cast<size_t>(batch.group())], batch);
+      if (state.shading.group(batch.group()).asksHemispheres())
+        add(examples[static_cast<size_t>(batch.group())], batch);
   });
   return examples;
 }
@@ -60,7 +61,8 @@ void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileR
                             const std::atomic<bool>* cancelled) {
   state.hemispheresAsked.assign(state.scene.groups.size(), {});
   bool any = false;
-  for (size_t g = 0; g < state.scene.groups.size(); ++g) any |= state.shading.asksHemispheres(static_cast<int>(g));
+  for (size_t g = 0; g < state.scene.groups.size(); ++g)
+    any |= state.shading.group(static_cast<int>(g)).asksHemispheres();
   if (!any || !keepsHemispheres(state.settings)) return;
   ShadeContext context;
   context.purpose = Purpose::Rehearsal;

@@ -62,7 +62,7 @@ std::vector<IrradianceExpansion> redrawn(const IrradianceCache& cache, std::span
 }
 
 std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) {
-  const IndirectQuery* query = state.shading.indirectQuery(at.group);
+  const IndirectQuery* query = state.shading.group(at.group).indirectQuery();
   if (!query) return std::nullopt;
   const auto prepared = preparedFor(state, cacheKeyFor(state, at.group, *query));
   if (prepared == state.caches.end()) return std::nullopt;

@@ -51,7 +51,7 @@ EmissivePhotons::EmissivePhotons(const RayScene& rays, const ShadingSystem& shad
   std::vector<const Object*> leftOut;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& o = scene.objects[i];
-    if (!shading.surfaceEmits(o.group) || !o.attributes->visibility.diffuse) continue;
+    if (!shading.group(o.group).emits() || !o.attributes->visibility.diffuse) continue;
     if (hasStarts(o))
       glowing.push_back(static_cast<int>(i));
     else

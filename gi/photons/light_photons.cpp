@@ -43,7 +43,7 @@ std::vector<vec2> fewSamples() {
 
 std::unique_ptr<const PhotonSource> photonsOf(int light, const ShadingSystem& shading, const RayScene& rays,
                                               const PhotonTarget& target) {
-  switch (shading.lightKind(light)) {
+  switch (shading.light(light).kind()) {
     case LightKind::Point:
       return std::make_unique<PointPhotons>(light, shading, target);
     case LightKind::Distant:

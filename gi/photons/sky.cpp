@@ -98,7 +98,7 @@ float SkyCells::pdf(const Cell& cell) const {
 
 SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& rays, const PhotonTarget& target)
     : LightPhotons(light, shading, target) {
-  for (const Portal& p : shading.portals(light))
+  for (const Portal& p : shading.light(light).portals())
     portals_.push_back({p, {freeSky(rays, p, p.normal), freeSky(rays, p, -p.normal)}});
   const std::vector<float> radiance = survey(light, shading);
   open_ = SkyCells(radiance, [](const vec3&) { return 1.0f; });

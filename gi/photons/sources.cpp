@@ -20,7 +20,7 @@ std::vector<std::unique_ptr<const PhotonSource>> sourcesOf(const RayScene& rays,
     const bool isOn = std::any_of(scene.groups.begin(), scene.groups.end(),
                                   [&](const ShadeGroup& g) { return isOnFor(g, light->index); });
     if (!isOn) continue;
-    if (shading.lightKind(light->index) == LightKind::Ambient) {
+    if (shading.light(light->index).kind() == LightKind::Ambient) {
       log.report(Severity::Warning, "photons-ambient", light->shader.where,
                  "light \"" + light->handle + "\" comes from nowhere: it emits no photons");
       continue;

@@ -27,7 +27,7 @@ PhotonSurfaces::PhotonSurfaces(const RayScene& rays, const ShadingSystem& shadin
 
 std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) const {
   if (!isDiffuse(group)) return Answer{};
-  if (!shading_.reflectsEvenly(group)) return std::nullopt;
+  if (!shading_.group(group).reflectsEvenly()) return std::nullopt;
   const int object = rays_.scene().groups[static_cast<size_t>(group)].exampleObject;
   if (object < 0) return std::nullopt;  // no ray meets the group: its objects were dropped
   const vec3 normal(0, 0, -1);
@@ -46,7 +46,7 @@ std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& 
   HitAnswers lit;
   rays_.shadeHits(rays, hits, names, shading_, context, question, lit);
   const auto emits = [&](const Hit& h) {
-    return shading_.surfaceEmits(rays_.scene().objects[static_cast<size_t>(h.object)].group);
+    return shading_.group(rays_.scene().objects[static_cast<size_t>(h.object)].group).emits();
   };
   if (std::any_of(hits.begin(), hits.end(), emits)) {
     const std::vector<vec3> dark = emittedRadiance(rays_, shading_, rays, hits, names, seed_);

@@ -19,7 +19,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayScene& rays, const Shadi
       worldUnit_(lengthScale(scene.cameraFromWorldAtOpen())) {
   for (const Object& o : scene.objects) groups_.push_back(o.group);
   for (int g = 0; g < static_cast<int>(scene.groups.size()); ++g) {
-    media_.push_back({mediumOf(shading.medium(g, true), worldUnit_), mediumOf(shading.medium(g, false), worldUnit_)});
+    media_.push_back(
+        {mediumOf(shading.group(g).medium(true), worldUnit_), mediumOf(shading.group(g).medium(false), worldUnit_)});
     anyMedium_ |= !media_.back().inside.empty() || !media_.back().outside.empty();
     samplesTime_ |= rays.samplesTime(g);
   }

@@ -26,8 +26,8 @@ const char* refusal(const ShadingSystem& shading, const Object& o) {
   if (o.solid >= 0) return "it is part of a solid";
   if (o.shape().facing(vec3(0), vec3(0, 0, 1), true)) return "it turns to the eye";
   if (a.displacement && a.trace.displacements) return "rays see its displacement";
-  if (!shading.opaque(o.group)) return "it is not opaque";
-  if (shading.tracesRays(o.group)) return "its shader traces rays";
+  if (!shading.group(o.group).opaque()) return "it is not opaque";
+  if (shading.group(o.group).tracesRays()) return "its shader traces rays";
   return nullptr;
 }
 

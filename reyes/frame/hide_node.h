@@ -31,7 +31,8 @@ struct HideContext {
 
 /// Notes for groups from `first` on whether their shaders want steps.
 inline void markSteps(Scene& scene, const ShadingSystem& shading, size_t first) {
-  for (size_t i = first; i < scene.groups.size(); ++i) scene.groups[i].steps = shading.wantsSteps(static_cast<int>(i));
+  for (size_t i = first; i < scene.groups.size(); ++i)
+    scene.groups[i].steps = shading.group(static_cast<int>(i)).wantsSteps();
 }
 
 class NodeQueue;

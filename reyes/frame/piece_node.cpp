@@ -166,7 +166,7 @@ std::shared_ptr<const RasterGrid> PieceNode::makeGrid(const PieceStack& stack) {
         fmt::format("{}: displaced vertices are not finite or lie behind the eye; the micropolygons there are "
                     "left out (is displacementbound too small?)",
                     objectName(o)));
-  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.opaque(o.group),
+  auto raster = project(std::move(grid), context_.scene, context_.camera, context_.shading.group(o.group).opaque(),
                         stack.place.zMin, pool);
   keepPeak(stats.memoryBytes.grids, context_.liveGrids_bytes += static_cast<int64_t>(pool->bytes()));
   return raster;

@@ -32,7 +32,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
     const ShadePoints& points = tile.batches[b];
     ShadedPoints& out = tile.shaded[b];
     const bool matte = scene.groups[static_cast<size_t>(points.group())].attributes->matte;
-    if ((matte || !wantsColor) && shading.opaque(points.group())) {
+    if ((matte || !wantsColor) && shading.group(points.group()).opaque()) {
       leaveBlack(points.count(), out);
       continue;
     }

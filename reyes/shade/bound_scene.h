@@ -67,6 +67,8 @@ struct BoundGroup {
   std::vector<BoundVariable> variables;  ///< Indexed as FrameOutput::variables.
   /// Returns the surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
+  /// Returns the volume shader inside or outside of its surfaces; null if there is none.
+  const BoundShader* volume(bool inside) const { return (inside ? interior : exterior).get(); }
   int CsOffset = -1, OsOffset = -1, sOffset = -1, tOffset = -1, primvarFloats = 0;
 };
 

@@ -1,56 +1,11 @@
-// Lights and surfaces as photons see them, and lamps as the eye does: they run alone, not for the shading of an object.
+// Lights as photons and the eye see them: they run alone, not for the shading of an object.
 #include <fmt/format.h>
 
 #include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
-#include "reyes/shade/roles.h"
 #include "reyes/shade/system.h"
 
 namespace tomales {
-
-bool ShadeServices::interpolatedHemisphere(const ShadePoints&, const uint8_t*, TmConstVec3, const HemisphereQuery&,
-                                           const ShadeContext&, TmVec3) const {
-  return false;
-}
-
-void ShadeServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection&,
-                                  const IndirectQuery&, const ShadeContext&, TmVec3 out) const {
-  for (int i = 0; i < points.count(); ++i)
-    if (active[i]) set(out, i, vec3(0.0f));
-}
-
-bool ShadeServices::volumesBefore(const ShadePoints&, const ShadeContext&, ShadedPoints&) const { return false; }
-
-void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* active, TmVec3 E) const {
-  for (int i = 0; i < points.count(); ++i)
-    if (active[i]) set(E, i, vec3(0.0f));
-}
-
-std::string ShadingSystem::lightGroup(int light) const {
-  const auto& l = impl_->lights[static_cast<size_t>(light)];
-  return l && !l->can(TM_LIGHT_INDIRECT) ? l->group : std::string();
-}
-
-const TmShader* ShadingSystem::lightShader(int light) const {
-  const auto& l = impl_->lights[static_cast<size_t>(light)];
-  return l ? l->bound->shader : nullptr;
-}
-
-vec3 ShadingSystem::lightFactor(int light, const std::vector<Param>& params) const {
-  const TmShader* shader = lightShader(light);
-  return shader ? factorOf(*shader, params) : vec3(1.0f);
-}
-
-LightKind ShadingSystem::lightKind(int light) const {
-  const auto& l = impl_->lights[static_cast<size_t>(light)];
-  if (!l || !l->indirect || l->nondiffuse) return LightKind::None;
-  if (l->can(TM_LIGHT_INDIRECT)) return LightKind::Indirect;
-  if (l->can(TM_LIGHT_AMBIENT)) return LightKind::Ambient;
-  if (l->can(TM_LIGHT_AREA)) return LightKind::Area;
-  if (l->can(TM_LIGHT_SKY)) return LightKind::Sky;
-  if (l->can(TM_LIGHT_SOLAR)) return LightKind::Distant;
-  return LightKind::Point;
-}
 
 void ShadingSystem::probe(int light, LightProbe& probe) const {
   const BoundShader& shader = *impl_->lights[static_cast<size_t>(light)]->bound;
@@ -100,37 +55,6 @@ void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec
                       fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
                                   light->bound->user, light->bound->shader->name));
   for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
-}
-
-bool ShadingSystem::takesFoundPortals(int light) const {
-  const BoundLight* l = impl_->lights[static_cast<size_t>(light)].get();
-  return l && l->takesFoundPortals();
-}
-
-std::span<const Portal> ShadingSystem::portals(int light) const {
-  return impl_->lights[static_cast<size_t>(light)]->sky->portals().all();
-}
-
-MediumColors ShadingSystem::medium(int group, bool inside) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  const BoundShader* volume = (inside ? g.interior : g.exterior).get();
-  if (!volume) return {};
-  const auto color = [&](TmRole role) {
-    const vec3 c = volume->color(role, vec3(0.0f));
-    return isFinite(c) ? glm::max(c, vec3(0.0f)) : vec3(0.0f);
-  };
-  return {color(TM_ROLE_SCATTERING), color(TM_ROLE_ABSORPTION)};
-}
-
-bool ShadingSystem::surfaceEmits(int group) const {
-  return impl_->groups[static_cast<size_t>(group)].forDiffuseRays().can(TM_EMITS);
-}
-
-bool ShadingSystem::reflectsEvenly(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  const bool varies =
-      g.CsOffset >= 0 || g.OsOffset >= 0 || !(g.indirectSurface ? g.indirectOverrides : g.surfaceOverrides).empty();
-  return !varies && g.forDiffuseRays().can(TM_EVEN);
 }
 
 }  // namespace tomales

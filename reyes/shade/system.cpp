@@ -40,19 +40,10 @@ void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }
 
 void ShadingSystem::takeFoundPortals() { impl_->takeFoundPortals(); }
 
-bool ShadingSystem::opaque(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  return g.group->attributes->opacity == vec3(1.0f) && g.OsOffset < 0 && g.surface->can(TM_KEEPS_OPACITY);
-}
+GroupTraits ShadingSystem::group(int group) const { return {*impl_, impl_->groups[static_cast<size_t>(group)]}; }
 
-bool ShadingSystem::wantsSteps(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  const auto wants = [](const BoundShaderPtr& s) { return s && (s->can(TM_DERIVATIVES) || s->can(TM_NEIGHBOURS)); };
-  return wants(g.surface) || wants(g.indirectSurface);
-}
-
-bool ShadingSystem::keepsOpacity(int group) const {
-  return impl_->groups[static_cast<size_t>(group)].surface->can(TM_KEEPS_OPACITY);
+LightTraits ShadingSystem::light(int light) const {
+  return LightTraits(impl_->lights[static_cast<size_t>(light)].get());
 }
 
 void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
@@ -91,11 +82,6 @@ void ShadingSystem::warnOfLightNoise() const {
   impl_->lightUse.warn(*impl_);
 }
 
-const IndirectQuery* ShadingSystem::indirectQuery(int group) const {
-  const auto& query = impl_->groups[static_cast<size_t>(group)].indirect;
-  return query ? &*query : nullptr;
-}
-
 std::optional<IndirectRequest> ShadingSystem::indirectRequest() const {
   std::optional<IndirectRequest> out;
   for (const auto& light : impl_->lights) {
@@ -114,23 +100,6 @@ int ShadingSystem::mostAreaSamples() const {
   for (const auto& light : impl_->lights)
     if (light && light->can(TM_LIGHT_AREA)) most = std::max(most, light->samples);
   return most;
-}
-
-bool ShadingSystem::tracesRays(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  return g.surface->can(TM_TRACES) && !g.surface->can(TM_OCCLUDED) && !g.surface->can(TM_TRACES_HIGHLIGHTS);
-}
-
-// A light with TmOcclusion::maxVariation in a parameter tells it before it runs.
-bool ShadingSystem::asksHemispheres(int group) const {
-  const BoundGroup& g = impl_->groups[static_cast<size_t>(group)];
-  const bool allowed = g.group->attributes->irradianceMaxError.value_or(0.0f) > 0;
-  return g.surface->can(TM_OCCLUDED) || g.surface->can(TM_INTERPOLATED_UNASKED) ||
-         (allowed && g.surface->can(TM_INTERPOLATED)) ||
-         std::any_of(impl_->interpolated.begin(), impl_->interpolated.end(), [&](int light) {
-           const float most = impl_->light(light).maxVariation;
-           return (most < 0 ? allowed : most > 0) && g.lights().contains(light);
-         });
 }
 
 bool ShadingSystem::needsRays() const {

@@ -7,10 +7,6 @@
 namespace tomales {
 namespace {
 
-const BoundShader* volumeOf(const BoundGroup& group, bool inside) {
-  return (inside ? group.interior : group.exterior).get();
-}
-
 /// Runs a volume shader over the colours and opacities at the ends of rays. Returns false if it has thrown.
 bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& volume, const ShadeContext& context,
          ShadePoints& ends, ShadedPoints& out) {
@@ -53,7 +49,7 @@ void cross(Batch& asking, const BoundShader& volume, const std::vector<int>& whi
 void crossVolumes(Batch& batch, const TmGrid* g, TmConstVec3 origin, TmConstVec3 direction, const float* distance,
                   TmVec3 color, TmVec3 opacity) {
   for (const bool inside : {false, true}) {
-    const BoundShader* volume = volumeOf(batch.group, inside);
+    const BoundShader* volume = batch.group.volume(inside);
     if (!volume) continue;
     std::vector<int> which;
     forActive(g, [&](int i) {
@@ -86,13 +82,9 @@ void crossed(void* host, const TmGrid* g, int32_t byAmount, float* distance, flo
 
 void addVolumeServices(TmServices& services) { services.crossed = crossed; }
 
-bool ShadingSystem::hasVolume(int group, bool inside) const {
-  return volumeOf(impl_->groups[static_cast<size_t>(group)], inside) != nullptr;
-}
-
 bool ShadingSystem::crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(ends.group())];
-  const BoundShader* volume = volumeOf(group, inside);
+  const BoundShader* volume = group.volume(inside);
   return volume && run(*impl_, group, *volume, context, ends, out);
 }
 

@@ -77,7 +77,7 @@ std::string shaderSceneRib(const TmShader& shader, const std::string& parameters
 ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size) {
   const int object = static_cast<int>(scene.objects.size()) - 1;  // a lamp may be before it
   const int group = scene.objects.back().group;
-  ShadePoints points(group, 0, shading.wantsSteps(group));
+  ShadePoints points(group, 0, shading.group(group).wantsSteps());
   for (int j = 0; j < size[1]; ++j)
     for (int i = 0; i < size[0]; ++i) {
       const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(size[0]),

@@ -42,7 +42,7 @@ FrameJob::FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& 
   gathers_ = method_->caches;
   counts_ = countsPhotons(*method_, scene);
   for (size_t g = 0; g < scene.groups.size() && mode() == GiMode::None && keepsHemispheres(giSettings()); ++g)
-    gathers_ |= shading_->asksHemispheres(static_cast<int>(g));
+    gathers_ |= shading_->group(static_cast<int>(g)).asksHemispheres();
   warnAboutPixels();
 }
 

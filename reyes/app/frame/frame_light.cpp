@@ -86,7 +86,7 @@ AuditSettings FrameLight::auditSettings(uint32_t seed) const {
   settings.seed = seed;
   settings.indirect = false;
   for (size_t g = 0; g < job_.scene().groups.size() && job_.mode() != GiMode::None; ++g)
-    settings.indirect |= job_.shading().indirectQuery(static_cast<int>(g)) != nullptr;
+    settings.indirect |= job_.shading().group(static_cast<int>(g)).indirectQuery() != nullptr;
   return settings;
 }
 

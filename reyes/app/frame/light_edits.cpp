@@ -23,13 +23,13 @@ struct LightChange {
 };
 
 LightChange changeOf(const LightCall& then, const LightCall& now, const ShadingSystem& shading) {
-  const TmShader& shader = *shading.lightShader(now.index);
+  const TmShader& shader = *shading.light(now.index).shader();
   const ShaderCall &a = then.shader, &b = now.shader;
   LightChange out;
   out.isGain = a.name == b.name && then.castsShadows == now.castsShadows && a.worldFromShader == b.worldFromShader &&
                otherParams(a, shader) == otherParams(b, shader);
   if (a == b || a.name != b.name) return out;
-  const vec3 before = shading.lightFactor(now.index, a.params), after = shading.lightFactor(now.index, b.params);
+  const vec3 before = shading.light(now.index).factor(a.params), after = shading.light(now.index).factor(b.params);
   for (int c = 0; c < 3; ++c) {
     if (before[c] == after[c]) continue;
     if (before[c] != 0)
@@ -41,7 +41,7 @@ LightChange changeOf(const LightCall& then, const LightCall& now, const ShadingS
 }
 
 bool bounces(const ShadingSystem& shading, size_t light) {
-  const LightKind kind = shading.lightKind(static_cast<int>(light));
+  const LightKind kind = shading.light(static_cast<int>(light)).kind();
   return kind != LightKind::None && kind != LightKind::Indirect;
 }
 
@@ -53,7 +53,7 @@ LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const Sh
   std::vector<std::optional<vec3>> gains(gathered.groups.size());
   for (size_t l = 0; l < now.lights.size(); ++l) {
     if (!bounces(shading, l)) continue;
-    const auto group = std::ranges::find(gathered.groups, shading.lightGroup(static_cast<int>(l)));
+    const auto group = std::ranges::find(gathered.groups, shading.light(static_cast<int>(l)).group());
     const LightChange change = changeOf(*gathered.lights[l], *now.lights[l], shading);
     vec3 kept(1.0f);
     if (group != gathered.groups.end()) {
@@ -71,7 +71,7 @@ LightEdits editsSince(const IrradianceShot& gathered, const Scene& now, const Sh
 std::vector<std::string> groupsOfLights(const Scene& scene, const ShadingSystem& shading) {
   std::set<std::string> names{""};
   for (size_t l = 0; l < scene.lights.size(); ++l)
-    if (bounces(shading, l)) names.insert(shading.lightGroup(static_cast<int>(l)));
+    if (bounces(shading, l)) names.insert(shading.light(static_cast<int>(l)).group());
   return {names.begin(), names.end()};
 }
 

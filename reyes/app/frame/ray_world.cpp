@@ -69,8 +69,9 @@ bool RayGeometry::dressAs(const Shot& shot, ShaderRegistry& shaders, const Shade
   dressed_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
   tools_.shading = dressed_.get();
   for (int g = 0; g < static_cast<int>(attributes_.size()); ++g)
-    if (dressed_->keepsOpacity(g) != first_->keepsOpacity(g) || dressed_->opaque(g) != first_->opaque(g) ||
-        dressed_->wantsSteps(g) != first_->wantsSteps(g))
+    if (dressed_->group(g).keepsOpacity() != first_->group(g).keepsOpacity() ||
+        dressed_->group(g).opaque() != first_->group(g).opaque() ||
+        dressed_->group(g).wantsSteps() != first_->group(g).wantsSteps())
       return false;
   return true;
 }

@@ -41,7 +41,7 @@ class MovedLight {
  private:
   /// Adds E/pi of a light that has a place or a direction, and what ambient light there is beside it.
   void add(int light, const std::vector<Place>& places, std::vector<float>& out) const {
-    const LightKind kind = shading_.lightKind(light);
+    const LightKind kind = shading_.light(light).kind();
     const bool isAmbient = kind == LightKind::Ambient;
     if (kind != LightKind::Point && kind != LightKind::Distant && kind != LightKind::Area && !isAmbient) return;
     LightProbe probe;

@@ -14,7 +14,7 @@ constexpr float kWider = 1.04f;
 /// Returns the first light that takes openings; null if there is none.
 const LightCall* lightOfOpenings(const Scene& scene, const ShadingSystem& shading) {
   for (size_t i = 0; i < scene.lights.size(); ++i)
-    if (shading.takesFoundPortals(static_cast<int>(i))) return scene.lights[i].get();
+    if (shading.light(static_cast<int>(i)).takesFoundPortals()) return scene.lights[i].get();
   return nullptr;
 }
 

@@ -30,7 +30,7 @@ std::vector<Layer> layersOf(const ShotJob& job, size_t parts) {
   std::vector<Layer> out{{"everything", std::nullopt}, {"glow", "", shares}};
   std::map<std::string, std::vector<std::string>> groups;
   for (const auto& light : job.shot().scene.lights)
-    if (const std::string group = job.job().shading().lightGroup(light->index); !group.empty())
+    if (const std::string group = job.job().shading().light(light->index).group(); !group.empty())
       groups[group].push_back(light->handle);
   for (const auto& [name, handles] : groups) out.push_back({name, name, shares, handles});
   if (!shares) out.push_back({"bounced light", "", true});

@@ -206,7 +206,7 @@ inline std::vector<vec3> indirectOf(const GiServices& services, const World& wor
   std::vector<vec3> out(static_cast<size_t>(frame.crop.width() * frame.crop.height()));
   for (const DeepTile& tile : frame.tiles)
     for (const ShadePoints& batch : tile.batches) {
-      const std::vector<vec3> E = indirectAt(services, batch, *world.shading.indirectQuery(batch.group()));
+      const std::vector<vec3> E = indirectAt(services, batch, *world.shading.group(batch.group()).indirectQuery());
       for (int i = 0; i < batch.count(); ++i)
         out[static_cast<size_t>(batch.key(i) / 10000 * static_cast<uint32_t>(frame.crop.width()) +
                                 batch.key(i) % 10000)] = E[static_cast<size_t>(i)];

@@ -74,7 +74,7 @@ TEST(GatherPlaces, ABladeHasTheLightOfItsRoot) {
     for (const ShadePoints& batch : tile.batches) {
       const ShadeGroup& group = world.scene.groups[static_cast<size_t>(batch.group())];
       if (offsetOf(group.primvars, "gatherP") < 0) continue;
-      const std::vector<vec3> E = indirectAt(*services, batch, *world.shading.indirectQuery(batch.group()));
+      const std::vector<vec3> E = indirectAt(*services, batch, *world.shading.group(batch.group()).indirectQuery());
       for (int i = 0; i < batch.count(); ++i) {
         const vec3 root{batch.primvar(offsetOf(group.primvars, "gatherP"))[i], kGround, 3};
         const IrradianceRecord truth =
@@ -113,7 +113,7 @@ TEST(GatherPlaces, TheReferenceGathersThereToo) {
     if (offsetOf(world.scene.groups[static_cast<size_t>(batch.group())].primvars, "gatherP") < 0) continue;
     ShadePoints top(batch.group(), batch.primvarFloats());
     top.assign(batch, 0, 1);
-    const IndirectQuery& query = *world.shading.indirectQuery(batch.group());
+    const IndirectQuery& query = *world.shading.group(batch.group()).indirectQuery();
     EXPECT_NEAR(luminance(indirectAt(*cached, top, query)[0]) / luminance(indirectAt(*reference, top, query)[0]), 1,
                 0.06f);
     ++found;

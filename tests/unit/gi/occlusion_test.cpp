@@ -130,7 +130,7 @@ TEST(Occlusion, IsTracedAtEveryPointWhereNobodyAllowsAVariation) {
   const DeepFrame frame = frameOf(world, 16);
   const auto services = world.use({});
   gatherFrame(*services, frame);
-  EXPECT_FALSE(world.shading.asksHemispheres(0)) << "so that no frame waits for it";
+  EXPECT_FALSE(world.shading.group(0).asksHemispheres()) << "so that no frame waits for it";
   EXPECT_EQ(world.stats.irradianceCache.samples, 0);
   const Error error = errorOnFloor(world, frame);
   EXPECT_GE(world.stats.rays.gather, 16 * error.points);
@@ -147,7 +147,7 @@ TEST(Occlusion, TakesItsVariationFromTheAttributeOfIrradiance) {
   const DeepFrame frame = frameOf(world, 16);
   const auto services = world.use({});
   gatherFrame(*services, frame);
-  EXPECT_TRUE(world.shading.asksHemispheres(0));
+  EXPECT_TRUE(world.shading.group(0).asksHemispheres());
   EXPECT_GT(world.stats.irradianceCache.samples, 50);
 }
 

@@ -179,7 +179,7 @@ TEST(PhotonEmission, TheSunSendsPhotonsAtWhatItsWidthReaches) {
     sun->shader.params.back() = floatParam("sunsize", size);
     b.scene.lights[0] = sun;
     World world(b.scene);
-    ASSERT_EQ(world.shading.lightKind(0), LightKind::Distant);
+    ASSERT_EQ(world.shading.light(0).kind(), LightKind::Distant);
     LightProbe probe;
     for (uint32_t i = 0; i < 4096; ++i) {
       probe.P.emplace_back(0, 0, 5);

@@ -86,13 +86,13 @@ TEST(Photons, AreTheSameForAnyNumberOfThreads) {
 
 TEST(Photons, GoTheSameWayWhetherASurfaceIsAskedOnceOrAtEveryHit) {
   World once(insideOfASphere());
-  ASSERT_TRUE(once.shading.reflectsEvenly(0));
+  ASSERT_TRUE(once.shading.group(0).reflectsEvenly());
   Scene scene = insideOfASphere();
   auto attributes = std::make_shared<Attributes>(*scene.objects[0].attributes);
   attributes->surface = std::make_shared<ShaderCall>(call("plastic", {floatParam("Kd", 1)}));
   scene.objects[0].attributes = attributes;
   World each(scene);
-  ASSERT_FALSE(each.shading.reflectsEvenly(0));
+  ASSERT_FALSE(each.shading.group(0).reflectsEvenly());
   const auto a = traced(once, {10000, 5}), b = traced(each, {10000, 5});
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].P == b[i].P && a[i].power == b[i].power) << i;
@@ -108,7 +108,8 @@ TEST(Photons, AskSurfacesWhosePrimitiveVariablesColourThem) {
     b.add(makePolygons({3}, {0, 1, 2}, params, problems), vec3(1));
   World world(b.scene);
   for (const auto& [object, even] : {std::pair{0, true}, {1, false}, {2, false}})
-    EXPECT_EQ(world.shading.reflectsEvenly(world.scene.objects[static_cast<size_t>(object)].group), even) << object;
+    EXPECT_EQ(world.shading.group(world.scene.objects[static_cast<size_t>(object)].group).reflectsEvenly(), even)
+        << object;
 }
 
 TEST(Photons, NoneComesIntoAClosedBody) {

@@ -275,7 +275,7 @@ TEST(RadiosityMaps, DoNotAnswerForRaysThatRanShaders) {
   size_t recorded = 0;
   for (const GiMode mode : {GiMode::Gather, GiMode::Radiosity})
     for (const char* subset : {"", "walls"}) {
-      IndirectQuery query = *world.shading.indirectQuery(batch.group());
+      IndirectQuery query = *world.shading.group(batch.group()).indirectQuery();
       query.subset = subset;
       const auto services = world.use({.mode = mode});
       indirectAt(*services, batch, query, context);

@@ -162,7 +162,7 @@ TEST(RecordedLookups, SayWhatTheCacheSaysUnderTheSameGainsWithoutAskingIt) {
   const DeepFrame frame = frameOf(world, 16);
   gatherFrame(*services, frame);
   const ShadePoints& batch = frame.tiles[5].batches[0];
-  const IndirectQuery query = *world.shading.indirectQuery(batch.group());
+  const IndirectQuery query = *world.shading.group(batch.group()).indirectQuery();
   RayAnswers answers;
   answers.recording = answers.recordsStay = true;
   ShadeContext context;

@@ -47,16 +47,16 @@ TEST_F(Binding, APointAmongThePrimitiveVariablesArrivesAsThePointsHoldIt) {
 
 TEST_F(Binding, OpaqueNeedsOpacityOneEverywhereAndAShaderThatKeepsIt) {
   surface("matte");
-  EXPECT_TRUE(system().opaque(0));
+  EXPECT_TRUE(system().group(0).opaque());
   shading.reset();
   scene.objects.clear();
   attributes.opacity = {1, 1, 0.9f};
-  EXPECT_FALSE(system().opaque(0));
+  EXPECT_FALSE(system().group(0).opaque());
   shading.reset();
   scene.objects.clear();
   attributes.opacity = vec3(1);
   primvar("Os", ValueType::Color);
-  EXPECT_FALSE(system().opaque(0));
+  EXPECT_FALSE(system().group(0).opaque());
 }
 
 TEST_F(Binding, EveryGroupHasItsOwnShader) {
@@ -338,9 +338,9 @@ TEST_F(Binding, PaintedPlasticMultipliesByTheTextureAndAMissingOneIsMagenta) {
 
 TEST_F(Binding, CountsOfLightsAreLimitedAndItIsSaid) {
   light("indirectlight", {number("samples", 1e9f), number("bounces", -1e30f)});
-  ASSERT_TRUE(system().indirectQuery(0));
-  EXPECT_EQ(system().indirectQuery(0)->samples, 65536);
-  EXPECT_EQ(system().indirectQuery(0)->bounces, 0);
+  ASSERT_TRUE(system().group(0).indirectQuery());
+  EXPECT_EQ(system().group(0).indirectQuery()->samples, 65536);
+  EXPECT_EQ(system().group(0).indirectQuery()->bounces, 0);
   EXPECT_EQ(log.count("light-value"), 2);
 }
 
@@ -364,7 +364,7 @@ TEST_F(Binding, EveryRadianceThatGatherRaysMaySeeIsKnownAndSoIsTheAtlas) {
 TEST_F(Binding, AnIndirectLightIsAddedForAllObjectsWhereOneIsWantedAndNoneIsThere) {
   scene.options.wantsIndirect = true;
   light("ambientlight");
-  EXPECT_TRUE(system().indirectQuery(0));
+  EXPECT_TRUE(system().group(0).indirectQuery());
   EXPECT_TRUE(system().indirectRequest());
 }
 
@@ -373,14 +373,14 @@ TEST_F(Binding, NoIndirectLightIsAddedBesideOneThatIsThere) {
   light("indirectlight", {number("samples", 77)});
   attributes.lights.clear();
   system();
-  EXPECT_FALSE(system().indirectQuery(0)) << "it is switched off for this object";
+  EXPECT_FALSE(system().group(0).indirectQuery()) << "it is switched off for this object";
 }
 
 TEST_F(Binding, ADraftHasItsOwnNumberOfRays) {
   scene.options.indirectSamples = 50;
   light("indirectlight", {number("samples", 600)});
-  ASSERT_TRUE(system().indirectQuery(0));
-  EXPECT_EQ(system().indirectQuery(0)->samples, 50);
+  ASSERT_TRUE(system().group(0).indirectQuery());
+  EXPECT_EQ(system().group(0).indirectQuery()->samples, 50);
 }
 
 TEST_F(Binding, EveryErrorFunctionIsKnown) {

@@ -26,8 +26,8 @@ TEST_F(FilterLight, ByDefaultIsItsSource) {
   filter({}, {number("intensity", 2), color("lightcolor", {1, 2, 3}), number("samples", 77)});
   expectColor(shadeOne(), services.E * 2.0f * vec3(1, 2, 3), 1e-5f);
   EXPECT_EQ(services.queries.back().samples, 77);
-  ASSERT_NE(system().indirectQuery(0), nullptr);
-  EXPECT_EQ(system().indirectQuery(0)->samples, 77) << "the gather pass prepares what the filter asks for";
+  ASSERT_NE(system().group(0).indirectQuery(), nullptr);
+  EXPECT_EQ(system().group(0).indirectQuery()->samples, 77) << "the gather pass prepares what the filter asks for";
   EXPECT_EQ(log.entries().size(), 0u);
 }
 

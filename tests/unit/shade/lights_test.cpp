@@ -276,8 +276,8 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
         {number("intensity", 3), color("lightcolor", {1, 2, 4}), number("samples", 77), number("maxerror", 0.5f)});
   expectColor(shadeOne(), 6.0f * vec3(1, 2, 4));
   EXPECT_EQ(services.queries.back().samples, 77);
-  ASSERT_NE(system().indirectQuery(0), nullptr);
-  EXPECT_EQ(system().indirectQuery(0)->maxError, 0.5f);
+  ASSERT_NE(system().group(0).indirectQuery(), nullptr);
+  EXPECT_EQ(system().group(0).indirectQuery()->maxError, 0.5f);
   ShadeContext direct;
   direct.indirect = false;
   expectColor(shadeOne(direct), vec3(0.0f));
@@ -285,7 +285,7 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
   scene.objects.clear();
   attributes.indirect.receive = false;
   expectColor(shadeOne(), vec3(0.0f));
-  EXPECT_EQ(system().indirectQuery(0), nullptr);
+  EXPECT_EQ(system().group(0).indirectQuery(), nullptr);
 }
 
 /// A rectangle of 2 x 3 in its plane.

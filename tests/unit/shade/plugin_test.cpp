@@ -223,7 +223,7 @@ TEST_F(Plugins, TheExamplePluginCompilesOutOfTreeAndShades) {
   const ShadedPoints out = shade(p);
   expectColor(out.color(0), {0, 1, 0});
   expectColor(out.color(1), vec3(1));
-  EXPECT_TRUE(system().opaque(0));
+  EXPECT_TRUE(system().group(0).opaque());
   EXPECT_EQ(log.entries().size(), 0u);
 }
 

@@ -101,9 +101,9 @@ TEST_F(Roles, ALampIsHiddenByItsRole) {
 TEST_F(Roles, AnIndirectLightOfAnyNameIsKnownForOne) {
   scene.options.wantsIndirect = true;
   light("bounce", {number("r", 77), number("deep", 3), text("how", "points"), text("where", "clouds")}).handle = "gi";
-  ASSERT_TRUE(system().indirectQuery(0));
-  EXPECT_EQ(system().indirectQuery(0)->samples, 77);
-  EXPECT_EQ(system().indirectQuery(0)->bounces, 3);
+  ASSERT_TRUE(system().group(0).indirectQuery());
+  EXPECT_EQ(system().group(0).indirectQuery()->samples, 77);
+  EXPECT_EQ(system().group(0).indirectQuery()->bounces, 3);
   ASSERT_TRUE(system().indirectRequest());
   EXPECT_EQ(system().indirectRequest()->method, giMethodNamed("points"));
   EXPECT_EQ(system().indirectRequest()->atlas, "clouds");
@@ -137,7 +137,7 @@ TEST_F(Roles, PhotonsMeetTheMediumThatAVolumeDeclares) {
   auto inside = std::make_shared<ShaderCall>(call("mist", {color("absorption", {4, 5, 6})}));
   attributes.interior = inside;
   attributes.exterior = std::make_shared<ShaderCall>(call("fog", {color("scattering", {0.5f, -1, 0})}));
-  const MediumColors in = system().medium(0, true), out = system().medium(0, false);
+  const MediumColors in = system().group(0).medium(true), out = system().group(0).medium(false);
   EXPECT_EQ(in.scattering, vec3(1, 2, 3));
   EXPECT_EQ(in.absorption, vec3(4, 5, 6));
   EXPECT_EQ(out.scattering, vec3(0.5f, 0, 0));

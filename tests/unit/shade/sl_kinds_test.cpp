@@ -82,7 +82,7 @@ TEST_F(SlKinds, ASunOfAConeShinesEvenlyOverIt) {
 TEST_F(SlKinds, LightsThatAreSampledMayBeAskedAlone) {
   surface("matte");
   light("hazysun");
-  EXPECT_EQ(system().lightKind(0), LightKind::Distant);
+  EXPECT_EQ(system().light(0).kind(), LightKind::Distant);
   LightProbe probe;
   for (uint32_t i = 0; i < 1024; ++i) {
     probe.P.emplace_back(0, 0, 5);

@@ -206,7 +206,7 @@ TEST_F(Sl, ServicesAreNotAskedForPointsOutsideOfTheMask) {
 TEST_F(Sl, DerivativesAreCentredDifferencesOverTheMicropolygon) {
   surface("differing");
   system();
-  ASSERT_TRUE(system().wantsSteps(0));
+  ASSERT_TRUE(system().group(0).wantsSteps());
   ShadePoints p(0, 0, true);
   const float du = 0.02f, dv = 0.05f;
   for (int k = 0; k < 20; ++k) {
