@@ -1,11 +1,10 @@
 // The memory of the shaders that a thread runs. It is a stack, since shaders that trace rays run others, and does not
 // shrink. Each thread has one.
 #pragma once
-#include <algorithm>
 #include <deque>
 #include <string>
 
-#include "reyes/base/simd.h"
+#include "reyes/base/stack_memory.h"
 
 namespace tomales::compiler {
 
@@ -16,19 +15,7 @@ class Memory {
     return memory;
   }
   /// Returns memory on a 64-byte boundary, which may hold any values.
-  float* floats(size_t n) {
-    const size_t need = (n + 15) / 16 * 16;
-    while (block_ == blocks_.size() || used_ + need > blocks_[block_].size()) {
-      if (block_ < blocks_.size()) ++block_;
-      used_ = 0;
-      // Blocks behind the last hold nothing.
-      if (block_ == blocks_.size()) blocks_.emplace_back();
-      if (blocks_[block_].size() < need) blocks_[block_].resize(std::max(need, kLeast));
-    }
-    float* p = blocks_[block_].data() + used_;
-    used_ += need;
-    return p;
-  }
+  float* floats(size_t n) { return floats_.floats(n); }
   uint8_t* bytes(size_t n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
   /// Makes n texts, all empty, and returns the number of the first.
   size_t openTexts(size_t n) {
@@ -42,19 +29,18 @@ class Memory {
 
   /// A height of the stack; restore() takes back all memory that was handed out after it.
   struct Mark {
-    size_t block, used, texts;
+    StackMemory::Mark floats;
+    size_t texts;
   };
-  Mark mark() const { return {block_, used_, openTexts_}; }
+  Mark mark() const { return {floats_.mark(), openTexts_}; }
   void restore(Mark m) {
-    block_ = m.block;
-    used_ = m.used;
+    floats_.restore(m.floats);
     openTexts_ = m.texts;
   }
 
  private:
-  static constexpr size_t kLeast = 1 << 16;
-  std::deque<UnsetVector<float>> blocks_;
-  size_t block_ = 0, used_ = 0, openTexts_ = 0;
+  StackMemory floats_;
+  size_t openTexts_ = 0;
   std::deque<std::string> texts_;  // references stay valid
 };
 
