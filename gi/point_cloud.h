@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reyes/base/chunk_file.h"
-#include "reyes/base/math.h"
+#include "reyes/base/pack.h"
 
 namespace tomales {
 
@@ -32,14 +32,19 @@ constexpr int kMostWidth = 256;  ///< Floats of a point in a file.
 
 /// Writes and reads channels as the headers of point clouds and brick maps hold them. Reading throws FileError, naming
 /// `path`, where they are inconsistent.
-void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels);
-std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path);
+void putChannels(Packer& w, const std::vector<CloudChannel>& channels);
+std::vector<CloudChannel> getChannels(Unpacker& r, const std::string& path);
 
 /// Checksums of what a file was made from; 0: not known.
 struct MadeFrom {
   uint64_t world = 0;   ///< worldSum() of the scene that the light was traced in.
   uint64_t inputs = 0;  ///< Sum of the input files and of the settings.
 };
+template <class A>
+void fields(A& a, MadeFrom& x) {
+  auto& [world, inputs] = x;
+  each(a, world, inputs);
+}
 
 /// Channels, with the facts about them that a cloud needs for every point.
 class CloudChannels {

@@ -32,16 +32,27 @@ bool sound(const BrickTree& tree) {
 
 }  // namespace
 
+template <class A>
+void fields(A& a, BrickCube& x) {
+  auto& [lo, size] = x;
+  each(a, lo, size);
+}
+
+template <class A>
+void fields(A& a, BrickNode& x) {
+  auto& [child] = x;
+  field(a, child);
+}
+
 BrickFile::BrickFile(const std::string& path) : file_(path, kBrickKind, kBrickVersion) {
   const Bytes header = file_.takeHeader();
-  ByteReader r(header, path);
+  Unpacker r{header};
   channels_ = getChannels(r, path);
   width_ = widthOf(channels_);
-  tree_.cube = r.get<BrickCube>();
-  tree_.deepest = r.get<int32_t>();
-  tree_.nodes = r.getVector<BrickNode>();
-  for (const uint8_t surface : r.getVector<uint8_t>()) tree_.surfaces.set(surface & BrickLayer::kSurfaceMask);
-  madeFrom_ = r.get<MadeFrom>();
+  std::vector<uint8_t> surfaces;
+  each(r, tree_.cube, tree_.deepest, tree_.nodes, surfaces, madeFrom_);
+  throwIfDamaged(r, path);
+  for (const uint8_t surface : surfaces) tree_.surfaces.set(surface & BrickLayer::kSurfaceMask);
   if (!sound(tree_) || tree_.nodes.size() != file_.count())
     throw DamageError(path, fmt::format("\"{}\" is damaged: its octree does not add up", path));
 }
@@ -58,16 +69,12 @@ void BrickFileWriter::add(const Brick& brick) { file_.add(brick.bytes()); }
 
 void BrickFileWriter::finish(const std::vector<CloudChannel>& channels, const BrickTree& tree,
                              const MadeFrom& madeFrom) {
-  ByteWriter header;
+  Packer header;
   putChannels(header, channels);
-  header.put(tree.cube);
-  header.put(static_cast<int32_t>(tree.deepest));
-  header.put(tree.nodes);
   std::vector<uint8_t> surfaces;
   for (size_t i = 0; i < tree.surfaces.size(); ++i)
     if (tree.surfaces[i]) surfaces.push_back(static_cast<uint8_t>(i));
-  header.put(surfaces);
-  header.put(madeFrom);
+  header.put(tree.cube, tree.deepest, tree.nodes, surfaces, madeFrom);
   file_.finish(header.bytes);
 }
 

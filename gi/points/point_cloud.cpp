@@ -19,21 +19,19 @@ int widthOf(const std::vector<CloudChannel>& channels) {
   return sum;
 }
 
-void putChannels(ByteWriter& w, const std::vector<CloudChannel>& channels) {
+void putChannels(Packer& w, const std::vector<CloudChannel>& channels) {
   w.put(static_cast<uint32_t>(channels.size()));
-  for (const CloudChannel& c : channels) {
-    w.put(c.name);
-    w.put(static_cast<int32_t>(c.width));
-  }
+  for (const CloudChannel& c : channels) w.put(c.name, c.width);
 }
 
-std::vector<CloudChannel> getChannels(ByteReader& r, const std::string& path) {
+std::vector<CloudChannel> getChannels(Unpacker& r, const std::string& path) {
   std::vector<CloudChannel> out;
   const auto count = r.get<uint32_t>();
   int width = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    std::string name = r.getString();
-    out.push_back({std::move(name), r.get<int32_t>()});
+    std::string name = r.get<std::string>();
+    out.push_back({std::move(name), r.get<int>()});
+    throwIfDamaged(r, path);
     if (out.back().width < 1 || out.back().width > kMostWidth - width)
       throw FileError(fmt::format("\"{}\": its channels are too many or damaged", path));
     width += out.back().width;

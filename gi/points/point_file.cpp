@@ -16,6 +16,12 @@ constexpr uint32_t kPointVersion = 2;
 
 }  // namespace
 
+template <class A>
+void fields(A& a, Bound3& x) {
+  auto& [lo, hi] = x;
+  each(a, lo, hi);
+}
+
 PointFileWriter::PointFileWriter(const std::string& path, const std::vector<CloudChannel>& channels)
     : file_(path, kPointKind, kPointVersion) {
   pending_.channels = channels;
@@ -35,13 +41,10 @@ void PointFileWriter::addChunk(const PointCloud& points) {
   if (points.count() == 0) return;
   std::vector<uint32_t> normals(points.count());
   std::transform(points.normal.begin(), points.normal.end(), normals.begin(), packNormal);
-  ByteWriter w;  // local, because each of many files that are written at once would keep its own
+  Packer w;  // local, because each of many files that are written at once would keep its own
   const size_t floats = 5 + static_cast<size_t>(points.width());
   w.bytes.reserve(4 * sizeof(uint64_t) + points.count() * floats * sizeof(float));
-  w.put(points.position);
-  w.put(normals);
-  w.put(points.radius);
-  w.put(points.data);
+  w.put(points.position, normals, points.radius, points.data);
   contents_.raw(w.bytes.data(), w.bytes.size());
   file_.add(w.bytes);
   bounds_.push_back(points.bound());
@@ -50,25 +53,20 @@ void PointFileWriter::addChunk(const PointCloud& points) {
 
 void PointFileWriter::finish(const MadeFrom& madeFrom) {
   addChunk(pending_);
-  ByteWriter header;
+  Packer header;
   putChannels(header, pending_.channels);
   for (const CloudChannel& c : pending_.channels) contents_.raw(c.name.data(), c.name.size());
-  header.put(static_cast<uint64_t>(written_));
-  header.put(bounds_);
-  header.put(madeFrom);
-  header.put(contents_.sum);
+  header.put(static_cast<uint64_t>(written_), bounds_, madeFrom, contents_.sum);
   file_.finish(header.bytes);
 }
 
 PointFile::PointFile(const std::string& path) : file_(path, kPointKind, kPointVersion) {
   const Bytes header = file_.takeHeader();
-  ByteReader r(header, path);
+  Unpacker r{header};
   channels_ = getChannels(r, path);
   width_ = widthOf(channels_);
-  count_ = r.get<uint64_t>();
-  bounds_ = r.getVector<Bound3>();
-  madeFrom_ = r.get<MadeFrom>();
-  contents_ = r.get<uint64_t>();
+  each(r, count_, bounds_, madeFrom_, contents_);
+  throwIfDamaged(r, path);
   if (bounds_.size() != file_.count())
     throw DamageError(path, fmt::format("\"{}\" is damaged: its chunks do not add up", path));
   if (!std::all_of(bounds_.begin(), bounds_.end(),
@@ -84,12 +82,13 @@ Bound3 PointFile::bound() const {
 
 void PointFile::read(size_t chunk, PointCloud& to) const {
   const Bytes bytes = file_.read(static_cast<uint32_t>(chunk));
-  ByteReader r(bytes, file_.path());
+  Unpacker r{bytes};
   if (to.channels.empty()) to.channels = channels_;
-  const auto positions = r.getVector<vec3>();
-  const auto normals = r.getVector<uint32_t>();
-  const auto radii = r.getVector<float>();
-  const auto data = r.getVector<float>();
+  const auto positions = r.get<std::vector<vec3>>();
+  const auto normals = r.get<std::vector<uint32_t>>();
+  const auto radii = r.get<std::vector<float>>();
+  const auto data = r.get<std::vector<float>>();
+  throwIfDamaged(r, file_.path());
   const size_t n = positions.size();
   if (normals.size() != n || radii.size() != n || data.size() != n * static_cast<size_t>(to.width()))
     throw DamageError(file_.path(), fmt::format("\"{}\" is damaged: a chunk does not add up", file_.path()));

@@ -26,12 +26,10 @@ class Checkpoint {
   template <class T>
   bool take(KeptKind kind, size_t index, T& out) const {
     const auto bytes = records_->read(nameOf(kind, index));
-    uint64_t schema = 0;
     Unpacker unpacker{bytes ? BytesView(*bytes) : BytesView()};
-    field(unpacker, schema);
+    const auto schema = unpacker.get<uint64_t>();
     if (unpacker.damaged || schema != schemaOf<T>()) return false;
-    T result{};
-    field(unpacker, result);
+    T result = unpacker.get<T>();
     if (unpacker.damaged || !unpacker.bytes.empty()) return false;
     out = std::move(result);
     return true;
@@ -39,8 +37,7 @@ class Checkpoint {
   template <class T>
   void keep(KeptKind kind, size_t index, const T& result) {
     Packer packer;
-    uint64_t schema = schemaOf<T>();               // builds whose structures differ do not read each other's results
-    each(packer, schema, const_cast<T&>(result));  // packing changes nothing
+    packer.put(schemaOf<T>(), result);  // builds whose structures differ do not read each other's results
     write(nameOf(kind, index), packer.bytes);
   }
   /// PATH.maps, a folder for maps that a method of light makes in files. It is there after the first call.

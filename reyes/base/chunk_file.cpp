@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reyes/base/input_file.h"
+#include "reyes/base/pack.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/unfinished_file.h"
 
@@ -213,18 +214,8 @@ void ChunkReader::readAll() const {
   });
 }
 
-void ByteWriter::append(const void* data, size_t size) {
-  const auto* from = static_cast<const std::byte*>(data);
-  bytes.insert(bytes.end(), from, from + size);
+void throwIfDamaged(const Unpacker& read, const std::string& path) {
+  if (read.damaged) throw DamageError(path, fmt::format("\"{}\" is damaged: it ends too early", path));
 }
-
-void ByteReader::copyTo(void* to, size_t count, size_t size) {
-  if (count > bytes_.size() / size) fail();
-  if (count == 0) return;
-  std::memcpy(to, bytes_.data(), count * size);
-  bytes_ = bytes_.subspan(count * size);
-}
-
-void ByteReader::fail() const { throw DamageError(path_, fmt::format("\"{}\" is damaged: it ends too early", path_)); }
 
 }  // namespace tomales

@@ -80,63 +80,8 @@ class ChunkReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Appends plain values and arrays to bytes.
-class ByteWriter {
- public:
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    append(&value, sizeof(T));
-  }
-  template <class T>
-  void put(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put(static_cast<uint64_t>(values.size()));
-    append(values.data(), sizeof(T) * values.size());
-  }
-  void put(const std::string& text) {
-    put(static_cast<uint64_t>(text.size()));
-    append(text.data(), text.size());
-  }
-
-  Bytes bytes;
-
- private:
-  void append(const void* data, size_t size);
-};
-
-/// Reads what ByteWriter wrote; throws FileError if the bytes end too early.
-class ByteReader {
- public:
-  /// The bytes must outlive the reader.
-  ByteReader(const Bytes& bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
-  ByteReader(Bytes&&, std::string) = delete;
-
-  template <class T>
-  T get() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    T value;
-    copyTo(&value, 1, sizeof(T));
-    return value;
-  }
-  template <class T>
-  std::vector<T> getVector() {
-    const auto count = get<uint64_t>();
-    if (count > bytes_.size() / sizeof(T)) fail();
-    std::vector<T> values(static_cast<size_t>(count));
-    copyTo(values.data(), values.size(), sizeof(T));
-    return values;
-  }
-  std::string getString() {
-    const std::vector<char> text = getVector<char>();
-    return {text.begin(), text.end()};
-  }
-
- private:
-  void copyTo(void* to, size_t count, size_t size);
-  [[noreturn]] void fail() const;
-  std::span<const std::byte> bytes_;
-  std::string path_;
-};
+struct Unpacker;
+/// Throws DamageError if more was read from the bytes of a file than they hold.
+void throwIfDamaged(const Unpacker& read, const std::string& path);
 
 }  // namespace tomales

@@ -27,6 +27,10 @@ constexpr bool kPacksRaw =
 
 struct Packer {
   Bytes bytes;
+  template <class... T>
+  void put(const T&... x) {
+    (field(*this, const_cast<T&>(x)), ...);  // packing changes nothing
+  }
   void raw(const void* data, size_t size) {
     const auto* p = static_cast<const std::byte*>(data);
     bytes.insert(bytes.end(), p, p + size);
@@ -36,6 +40,12 @@ struct Packer {
 struct Unpacker {
   BytesView bytes;
   bool damaged = false;
+  template <class T>
+  T get() {
+    T x{};
+    field(*this, x);
+    return x;
+  }
   void raw(void* data, size_t size) {
     if (size > bytes.size()) {
       damaged = true;
@@ -196,7 +206,7 @@ void field(A& a, T& x) {
 template <class T>
 Bytes pack(const T& x) {
   Packer packer;
-  field(packer, const_cast<T&>(x));  // packing changes nothing
+  packer.put(x);
   return std::move(packer.bytes);
 }
 

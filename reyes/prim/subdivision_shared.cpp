@@ -21,15 +21,8 @@ constexpr size_t kLargest = 4096;
 
 std::string keyOf(const Coarse& mesh) {
   Packer key;
-  MeshTags tags = mesh.tags;
-  std::vector<int> counts = mesh.vertexCounts, vertices = mesh.vertices;
-  size_t points = mesh.positions.size(), channels = mesh.channels.size();
-  auto scheme = mesh.scheme;
-  each(key, scheme, counts, vertices, tags, points, channels);
-  for (const FaceVaryingChannel& c : mesh.channels) {
-    std::vector<int> indices = c.indices;
-    field(key, indices);
-  }
+  key.put(mesh.scheme, mesh.vertexCounts, mesh.vertices, mesh.tags, mesh.positions.size(), mesh.channels.size());
+  for (const FaceVaryingChannel& c : mesh.channels) key.put(c.indices);
   return {reinterpret_cast<const char*>(key.bytes.data()), key.bytes.size()};
 }
 

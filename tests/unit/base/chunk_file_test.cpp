@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "reyes/base/pack.h"
+
 namespace tomales {
 namespace {
 
@@ -17,12 +19,8 @@ struct ChunkFile : ::testing::Test {
   ChunkFile() { fs::create_directories(folder); }
   ~ChunkFile() override { fs::remove_all(folder); }
 
-  static Bytes bytesOf(const std::string& text) {
-    ByteWriter w;
-    w.put(text);
-    return w.bytes;
-  }
-  static std::string textOf(const Bytes& bytes) { return ByteReader(bytes, "test").getString(); }
+  static Bytes bytesOf(const std::string& text) { return pack(text); }
+  static std::string textOf(const Bytes& bytes) { return Unpacker{bytes}.get<std::string>(); }
 
   void write() const {
     ChunkWriter w(path, "TESTFILE", 3);
