@@ -9,9 +9,9 @@
 #include "gi/method.h"
 #include "raytrace/emitters.h"
 #include "reyes/base/checkpoint.h"
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 
-#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -105,7 +105,7 @@ class GiServices final : public ShadeServices {
   /// empty, is called when the nearest points of every `stride`th pixel and row can be shaded without rays: 16, 8,
   /// 4, 2.
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
-                  const std::atomic<bool>* cancelled, const std::function<void(int stride)>& covered = {});
+                  StopToken stop, const std::function<void(int stride)>& covered = {});
 
   /// Forgets all that gatherPass() has made. It and shading go by these settings from now on. Maps stay, so the mode
   /// must be the same, and records are not kept for a later run.

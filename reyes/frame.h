@@ -4,10 +4,10 @@
 //   writeFrame   DeepFrame -> files     filter, expose, imager shader (in this order: RISpec imaging pipeline), every
 //                                       Display; by bands of rows, for which it asks for the tiles that it needs
 #pragma once
-#include <atomic>
 #include <functional>
 #include <span>
 
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 #include "reyes/image.h"
 #include "reyes/shade.h"
@@ -19,8 +19,7 @@ using Progress = std::function<void(float fraction)>;
 
 struct FrameControl {
   Progress progress;
-  /// Set from a signal handler: running buckets are given up, and the pass returns.
-  const std::atomic<bool>* cancelled = nullptr;
+  StopToken stop{};  ///< Running buckets are given up, and the pass returns.
   uint32_t seed = 0;
   PluginTrust trust{};  ///< Decides where display drivers may be loaded from.
 };
@@ -53,7 +52,7 @@ class FrameHider {
   FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
              Log& log);
   ~FrameHider();  ///< Warns of uncertain results.
-  /// Hides each bucket once, in any order. Returns false if it was cancelled and some were not hidden. Threads begin
+  /// Hides each bucket once, in any order. Returns false if it was stopped and some were not hidden. Threads begin
   /// far apart in the list: those that hide neighbours wait for each other to open nodes that touch both.
   bool hide(std::span<const uint32_t> buckets, const TileSink& sink);
 
@@ -70,7 +69,7 @@ DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& co
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
 /// Runs surface shaders, lights and atmosphere over the points of a tile.
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
-/// Shades tiles, started in the order given. Returns false if cancelled: tiles that were being shaded then are dropped,
+/// Shades tiles, started in the order given. Returns false if stopped: tiles that were being shaded then are dropped,
 /// because parts of them may be missing.
 bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control);

@@ -3,11 +3,11 @@
 // makes small end too: a patch has a budget of visits, whose remainder coarse pieces inherit. The result depends on the
 // camera and on ShadingRate, never on buckets, crop or threads. Threads: pure except for the counters and the log.
 #pragma once
-#include <atomic>
 #include <optional>
 #include <span>
 
 #include "reyes/base/stats.h"
+#include "reyes/base/stop.h"
 #include "reyes/scene.h"
 
 namespace tomales {
@@ -49,17 +49,15 @@ inline bool standsStillInFocus(const Object& o, const Camera& camera) {
 /// Tells whether a patch of very many pieces is split at once, or left in coarse pieces where that is safe. All of a
 /// frame's pieces at once would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
-/// Another thread sets it to end the work at once, with any result. It may be null.
-using StopFlag = const std::atomic<bool>*;
 
 /// Splits some patches of an object; pieces wholly outside the window are culled. The order is: first dots, which need
 /// not be measured, then the other patches as given, and within a patch by place.
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
-                                   Splitting splitting = Splitting::Wholly, StopFlag stop = nullptr);
+                                   Splitting splitting = Splitting::Wholly, StopToken stop = {});
 /// Returns the next pieces of a coarse one, split lazily. In the end they are those of splitting wholly.
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
-                                 const PixelRect& window, Stats& stats, Log& log, StopFlag stop = nullptr);
+                                 const PixelRect& window, Stats& stats, Log& log, StopToken stop = {});
 
 /// A tree of boxes in object space around all of an object's shapes over time. Patches are sorted along a space-filling
 /// curve, so that a run of them is compact in any model. Level 0 has a box for each run of kLeaf patches. Each level
@@ -67,7 +65,7 @@ std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, con
 class PatchTree {
  public:
   static constexpr uint32_t kLeaf = 64, kFan = 16;
-  explicit PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop = nullptr);
+  explicit PatchTree(const std::vector<PrimPtr>& shapes, StopToken stop = {});
 
   uint32_t patchCount() const { return static_cast<uint32_t>(order_.size()); }
   uint32_t top() const { return static_cast<uint32_t>(levels_.size()) - 1; }

@@ -138,7 +138,7 @@ RecordSlice BounceCaches::recordsAt(const RayTools& tools, const std::vector<Gat
                     [&](size_t i, BrightFind* find) {
                       return gather(*tools.rays, *tools.shading, points[i], settings, known, run.stats, find, groups);
                     },
-                .isCancelled = [&] { return run.isCancelled(); }},
+                .stop = run.stop},
                made);
   return made;
 }
@@ -152,7 +152,7 @@ void BounceCaches::insert(IrradianceCache& level, const std::vector<IrradianceRe
 
 void BounceCaches::cover(const RayTools& tools, const std::vector<GatherPoint>& candidates,
                          const GatherSettings& settings, const Run& run) {
-  for (int phase = 0; phase < kPhases && points_.size() < kMostRecords && !run.isCancelled(); ++phase) {
+  for (int phase = 0; phase < kPhases && points_.size() < kMostRecords && !run.stop.requested(); ++phase) {
     std::vector<uint8_t> open(candidates.size(), 0);
     parallelFor(candidates.size(), 64, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
@@ -211,7 +211,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   cover(tools, hitsFrom(*tools.rays, camera, points_, randomStream("more")), settings, run);
   mixLevel();
   settings.indirect = true;
-  for (int b = 2; b < bounces && !settled() && !run.isCancelled(); ++b) {
+  for (int b = 2; b < bounces && !settled() && !run.stop.requested(); ++b) {
     settings.depth = bounces - b + 1;
     // If every level had the same rays, their error would be multiplied as light is, and not average out.
     settings.seed = hashCombine(gather.seed, static_cast<uint32_t>(b));

@@ -3,7 +3,6 @@
 // E/pi. Threads: filled before anything is shaded, frozen after. While a level is filled, the one before is looked up.
 // Space: current.
 #pragma once
-#include <atomic>
 
 #include "gi/frame/record_slices.h"
 #include "gi/gather.h"
@@ -17,10 +16,9 @@ class BounceCaches {
  public:
   struct Run {
     Stats& stats;
-    const std::atomic<bool>* cancelled;   ///< May be null.
+    StopToken stop;
     Checkpoint* kept;                     ///< May be null.
     std::span<const std::string> groups;  ///< The groups of lights whose shares are kept.
-    bool isCancelled() const { return isSet(cancelled); }
   };
   /// Fills levels for `bounces` of light. `gather` gives the settings of the points that look them up. Records lie
   /// where rays from `from` end, and where the rays of these records do. It ends early when another level would add

@@ -28,12 +28,12 @@ std::vector<std::pair<size_t, CacheKey>> keysOf(const GiState& state) {
 
 }  // namespace
 
-bool FrameCaches::prepare(const DeepFrame& layout, const TileReader& tiles, const std::atomic<bool>* cancelled) {
+bool FrameCaches::prepare(const DeepFrame& layout, const TileReader& tiles, StopToken stop) {
   ofGroups_.assign(state_.scene.groups.size(), {});
-  learnHemisphereQueries(state_, layout, tiles, cancelled);
+  learnHemisphereQueries(state_, layout, tiles, stop);
   const std::vector<std::pair<size_t, CacheKey>> keys = keysOf(state_);
   if (keys.empty()) return false;
-  const FrameSurvey survey = surveyOf(layout, tiles, ofGroups_.size(), cancelled);
+  const FrameSurvey survey = surveyOf(layout, tiles, ofGroups_.size(), stop);
   for (const auto& [group, key] : keys) {
     size_t c = 0;
     while (c < state_.caches.size() && !(state_.caches[c].key == key)) ++c;

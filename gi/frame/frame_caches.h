@@ -2,6 +2,7 @@
 // already. Lengths: current space.
 #pragma once
 #include "gi/frame/state.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -11,7 +12,7 @@ class FrameCaches {
 
   /// Adds the caches that are missing. Groups whose lights and shaders have equal keys share one. Returns false if
   /// there is nothing to gather: with maxerror 0 no record could be reused.
-  bool prepare(const DeepFrame& layout, const TileReader&, const std::atomic<bool>* cancelled);
+  bool prepare(const DeepFrame& layout, const TileReader&, StopToken stop);
 
   /// Indices in GiState::caches, for each group.
   const std::vector<std::vector<size_t>>& ofGroups() const { return ofGroups_; }

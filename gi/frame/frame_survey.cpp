@@ -35,12 +35,11 @@ std::vector<uint64_t> seenOfBatches(const DeepTile& tile) {
 
 }  // namespace
 
-FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups,
-                     const std::atomic<bool>* cancelled) {
+FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups, StopToken stop) {
   FrameSurvey out{{}, std::vector<uint64_t>(groups)};
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
+    const auto tile = stop.requested() ? nullptr : tiles(t);
     if (!tile) return;
     Bound3 here;
     for (const ShadePoints& batch : tile->batches)

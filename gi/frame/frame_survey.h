@@ -1,8 +1,8 @@
 // Private to gi: the facts about a frame that a gather pass needs before its first phase. Space: current.
 #pragma once
-#include <atomic>
 #include <vector>
 
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 
 namespace tomales {
@@ -13,7 +13,6 @@ struct FrameSurvey {
   std::vector<uint64_t> seenOfGroup;
 };
 
-FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups,
-                     const std::atomic<bool>* cancelled);
+FrameSurvey surveyOf(const DeepFrame& layout, const TileReader& tiles, size_t groups, StopToken stop);
 
 }  // namespace tomales

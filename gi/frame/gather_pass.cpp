@@ -51,31 +51,29 @@ class GatherPass {
         slices_(state.checkpoint, KeptKind::GatherRecords),
         caches_(state) {}
 
-  void run(const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
-           const std::function<void(int stride)>& covered) {
+  void run(const std::function<void(float)>& progress, StopToken stop, const std::function<void(int stride)>& covered) {
     progress_ = &progress;
-    cancelled_ = cancelled;
+    stop_ = stop;
     if (!prepareCaches() || !(tools_ = gatherTools(state_))) return;
-    for (phase_ = 0; phase_ < kGatherPhases && !isCancelled(); ++phase_) {
+    for (phase_ = 0; phase_ < kGatherPhases && !stop_.requested(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
       gatherAt(std::move(sites));
       returnFreeMemory();  // tiles are unpacked between allocations that stay
       const int stride = strideAfter(phase_);
-      if (covered && stride > 1 && !isCancelled()) covered(stride);
+      if (covered && stride > 1 && !stop_.requested()) covered(stride);
     }
-    if (!isCancelled()) caches_.rememberFrame();
+    if (!stop_.requested()) caches_.rememberFrame();
   }
 
  private:
   const GatherSettings& gatherOf(size_t cache) const { return state_.caches[cache].key.gather; }
   bool isLight(size_t cache) const { return !gatherOf(cache).isOcclusion(); }
   bool isIndirect(size_t cache) const { return !gatherOf(cache).asked; }
-  bool isCancelled() const { return isSet(cancelled_); }
 
   // Returns false if there is nothing to gather.
   bool prepareCaches() {
-    if (!caches_.prepare(layout_, tiles_, cancelled_)) return false;
+    if (!caches_.prepare(layout_, tiles_, stop_)) return false;
     sites_.resize(state_.caches.size());
     std::vector<uint8_t> gathers;
     for (const std::vector<size_t>& caches : caches_.ofGroups()) gathers.push_back(!caches.empty());
@@ -113,7 +111,7 @@ class GatherPass {
     const auto start = std::chrono::steady_clock::now();
     const double raysBefore = state_.stats.lightRays();
     state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
-                                {state_.stats, cancelled_, state_.checkpoint, state_.groups});
+                                {state_.stats, stop_, state_.checkpoint, state_.groups});
     state_.bounceCost = {state_.stats.lightRays() - raysBefore,
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   }
@@ -125,7 +123,7 @@ class GatherPass {
     if (takeSites(sites)) return sites;
     std::mutex merging;
     parallelFor(layout_.tileCount(), 1, [&](size_t t, size_t) {
-      const auto tile = isCancelled() ? nullptr : gatherTiles_->read(t);
+      const auto tile = stop_.requested() ? nullptr : gatherTiles_->read(t);
       if (!tile) return;
       std::vector<Site> here;
       collectTile(*tile, here);
@@ -135,7 +133,7 @@ class GatherPass {
     std::stable_sort(sites.begin(), sites.end(),
                      [](const Site& a, const Site& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     std::erase_if(sites, [&](const Site& s) { return !sites_[s.cache].insert(keyOf(s)).second; });
-    if (state_.checkpoint && !isCancelled())
+    if (state_.checkpoint && !stop_.requested())
       state_.checkpoint->keep(KeptKind::GatherSites, static_cast<size_t>(phase_), sites);
     return sites;
   }
@@ -209,7 +207,7 @@ class GatherPass {
     return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.learnt->spots.spots().empty()));
   }
 
-  /// Returns how many records were made: fewer than there are sites if the pass was cancelled. finds: as many as sites,
+  /// Returns how many records were made: fewer than there are sites if the pass was stopped. finds: as many as sites,
   /// or empty when only the records of the search are replaced.
   size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
                      std::vector<BrightFind>& finds) {
@@ -226,7 +224,7 @@ class GatherPass {
                           const Site& site = sites[asked[k]];
                           return gatherAt(site, isLight(site.cache) ? find : nullptr);
                         },
-                        [this] { return isCancelled(); }};
+                        stop_};
     if (isFirst) making.progress = [this](float share) { report(share); };
     RecordSlice made;
     const size_t done = slices_.make(points, making, made);
@@ -261,16 +259,16 @@ class GatherPass {
   std::optional<GatherTiles> gatherTiles_;
   std::vector<std::unordered_set<uint64_t>> sites_;  ///< The sites of each cache that have a record.
   const std::function<void(float)>* progress_ = nullptr;
-  const std::atomic<bool>* cancelled_ = nullptr;
+  StopToken stop_;
   int phase_ = 0;
 };
 
 }  // namespace
 
 void fillCaches(GiState& state, const DeepFrame& layout, const TileReader& tiles,
-                const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                const std::function<void(float)>& progress, StopToken stop,
                 const std::function<void(int stride)>& covered) {
-  GatherPass(state, layout, tiles).run(progress, cancelled, covered);
+  GatherPass(state, layout, tiles).run(progress, stop, covered);
 }
 
 }  // namespace tomales

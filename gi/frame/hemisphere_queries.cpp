@@ -41,11 +41,11 @@ void add(std::vector<Example>& known, const ShadePoints& batch) {
 }
 
 std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFrame& layout, const TileReader& tiles,
-                                             const std::atomic<bool>* cancelled) {
+                                             StopToken stop) {
   std::vector<std::vector<Example>> examples(state.scene.groups.size());
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
+    const auto tile = stop.requested() ? nullptr : tiles(t);
     if (!tile) return;
     const std::lock_guard lock(merging);
     for (const ShadePoints& batch : tile->batches)
@@ -57,8 +57,7 @@ std::vector<std::vector<Example>> examplesOf(const GiState& state, const DeepFra
 
 }  // namespace
 
-void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileReader& tiles,
-                            const std::atomic<bool>* cancelled) {
+void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileReader& tiles, StopToken stop) {
   state.hemispheresAsked.assign(state.scene.groups.size(), {});
   bool any = false;
   for (size_t g = 0; g < state.scene.groups.size(); ++g)
@@ -68,7 +67,7 @@ void learnHemisphereQueries(GiState& state, const DeepFrame& layout, const TileR
   context.purpose = Purpose::Rehearsal;
   context.indirect = false;
   context.seed = state.settings.seed;
-  const std::vector<std::vector<Example>> examples = examplesOf(state, layout, tiles, cancelled);
+  const std::vector<std::vector<Example>> examples = examplesOf(state, layout, tiles, stop);
   parallelFor(examples.size(), 1, [&](size_t g, size_t) {
     for (const Example& e : examples[g]) {
       ShadedPoints out;

@@ -83,7 +83,7 @@ vec3 MeasuredLight::overPi(const MeasurementPoint& point) const {
 }
 
 void measureLight(GiState& state, const DeepFrame& layout, const TileReader& tiles,
-                  const std::function<void(float)>& progress, const std::atomic<bool>* cancelled) {
+                  const std::function<void(float)>& progress, StopToken stop) {
   const RayTools* tools = state.passes ? state.rays() : nullptr;
   if (!tools) return;
   state.measured = std::make_unique<MeasuredLight>();
@@ -92,7 +92,7 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
   context.direct = false;
   context.purpose = Purpose::Sketch;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = isSet(cancelled) ? nullptr : tiles(t);
+    const auto tile = stop.requested() ? nullptr : tiles(t);
     if (!tile) return;
     ShadedPoints out;
     for (const ShadePoints& batch : tile->batches) state.shading.shade(batch, context, out);

@@ -8,6 +8,7 @@
 
 #include "gi/photons/measurement.h"
 #include "gi/services.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -38,7 +39,7 @@ class MeasuredLight {
 
 /// Notes where shaders ask for indirect light, and counts photons there, if state.passes says how many.
 void measureLight(GiState&, const DeepFrame& layout, const TileReader&, const std::function<void(float)>& progress,
-                  const std::atomic<bool>* cancelled);
+                  StopToken stop);
 /// Notes the places while measureLight() asks for them, and answers that they are dark. Returns false at any other
 /// time.
 bool noteMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,

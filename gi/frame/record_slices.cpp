@@ -49,7 +49,7 @@ size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMa
       slice.finds.resize(making.findsLight ? here.size() : 0);
       for (size_t k = 0; k < here.size(); ++k) {
         slice.records[k] = making.gather(begin + k, making.findsLight ? &slice.finds[k] : nullptr);
-        if (making.isCancelled()) return;
+        if (making.stop.requested()) return;
       }
       if (kept_) kept_->keep(kind_, firstName + s, stored);
     }
@@ -59,7 +59,7 @@ size_t RecordSlices::make(const std::vector<GatherPoint>& points, const RecordMa
     whole[s] = 1;
   };
   parallelFor(slices, 1, [&](size_t s, size_t) {
-    if (making.isCancelled()) return;
+    if (making.stop.requested()) return;
     makeSlice(s);
     const std::lock_guard lock(reporting);
     if (making.progress) making.progress(static_cast<float>(++done) / static_cast<float>(slices));

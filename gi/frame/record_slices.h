@@ -7,6 +7,7 @@
 
 #include "gi/gather.h"
 #include "reyes/base/checkpoint.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -19,7 +20,7 @@ struct RecordSlice {
 struct RecordMaking {
   bool findsLight = false;  ///< `gather` gets a place for the bright light.
   std::function<IrradianceRecord(size_t point, BrightFind* find)> gather;  ///< Called by any thread.
-  std::function<bool()> isCancelled;
+  StopToken stop;
   std::function<void(float)> progress{};  ///< May be empty. Called by any thread, one at a time, with growing shares.
 };
 
@@ -28,7 +29,7 @@ class RecordSlices {
   /// kept: may be null.
   RecordSlices(Checkpoint* kept, KeptKind kind) : kept_(kept), kind_(kind) {}
   /// Makes a record at every point, in the order of the points. Returns how many of the first records are there: fewer
-  /// than there are points if it was cancelled.
+  /// than there are points if it was stopped.
   size_t make(const std::vector<GatherPoint>& points, const RecordMaking& making, RecordSlice& out);
 
  private:

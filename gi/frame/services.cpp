@@ -49,16 +49,16 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays,
 GiServices::~GiServices() = default;
 
 void GiServices::gatherPass(const DeepFrame& layout, const TileReader& tiles,
-                            const std::function<void(float)>& progress, const std::atomic<bool>* cancelled,
+                            const std::function<void(float)>& progress, StopToken stop,
                             const std::function<void(int stride)>& covered) {
   impl_->bounceCost = {};
-  measureLight(*impl_, layout, tiles, progress, cancelled);
+  measureLight(*impl_, layout, tiles, progress, stop);
   if (impl_->settings.mode == GiMode::Reference) return;
   const auto show = [&](int stride) {
     impl_->mixAnew();
     covered(stride);
   };
-  fillCaches(*impl_, layout, tiles, progress, cancelled, covered ? show : std::function<void(int)>());
+  fillCaches(*impl_, layout, tiles, progress, stop, covered ? show : std::function<void(int)>());
   impl_->mixAnew();
 }
 

@@ -7,7 +7,7 @@ std::atomic<bool> wish{false};
 
 }  // namespace
 
-const std::atomic<bool>& stopFlag() { return wish; }
+StopToken processStop() { return wish; }
 void requestStop(bool wanted) { wish = wanted; }
 
 }  // namespace tomales

@@ -1,19 +1,27 @@
-// The wish that the process ends soon, which SIGTERM makes (reyes/app/watch/interrupt.h). Work that takes long asks for
-// it about every tenth of a second. Threads: any.
+// The wish that work ends soon, because nobody wants its result any more. Work that takes long looks at it about every
+// tenth of a second. SIGTERM makes the wish for the whole process (reyes/app/watch/interrupt.h). Threads: any.
 #pragma once
 #include <atomic>
 
 namespace tomales {
 
-const std::atomic<bool>& stopFlag();
-inline bool stopRequested() { return stopFlag().load(std::memory_order_relaxed); }
-/// Asks for a stop. With `wanted` false it takes the wish back, as tests do.
-void requestStop(bool wanted = true);
+/// What work looks at. One that was made of nothing never asks for a stop.
+class StopToken {
+ public:
+  StopToken() = default;
+  /// Whoever owns the flag sets it to have the work end. It must outlive the token.
+  StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
+  bool requested() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
-/// Tells whether there is a flag and it is set. Whoever owns it sets it to have work end.
-inline bool isSet(const std::atomic<bool>* cancelled) {
-  return cancelled && cancelled->load(std::memory_order_relaxed);
-}
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
+};
+
+/// The wish that the process ends.
+StopToken processStop();
+inline bool stopRequested() { return processStop().requested(); }
+/// Asks for a stop of the process. With `wanted` false it takes the wish back, as tests do.
+void requestStop(bool wanted = true);
 
 /// Thrown by work that leaves nothing of use when it is not finished. It is no std::exception, so that no handler
 /// reports it as an error.

@@ -9,15 +9,15 @@
 namespace tomales {
 namespace {
 
-/// Hides one bucket. Returns nothing if it was cancelled on the way.
+/// Hides one bucket. Returns nothing if it was stopped on the way.
 std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
                                    const HideContext& context, const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);
   NodeQueue queue;
   for (HideNode* node : nodes.in(bucket)) queue.push(node);
-  while (const auto node = context.isCancelled() ? nullptr : queue.pop())
+  while (const auto node = context.stop.requested() ? nullptr : queue.pop())
     if (!hider.hidden(node->raster(), node->zMin())) node->visit(bucket, queue, hider);
-  if (context.isCancelled()) return {};
+  if (context.stop.requested()) return {};
   HideDiagnostics diagnostics;
   DeepTile tile = hider.resolve(&diagnostics);
   warnings.add(diagnostics, context.scene);
@@ -73,16 +73,16 @@ struct FrameHider::Impl {
         camera(scene.options),
         pattern(samplePattern(scene.options, c.seed)),
         buckets(frame),
-        context{scene, camera, shading, buckets, stats, log, c.cancelled},
+        context{scene, camera, shading, buckets, stats, log, c.stop},
         nodes(nodesOfScene(context), buckets.all(), buckets) {
     markSteps(scene, shading, 0);
   }
 
-  /// Returns false if cancelled.
+  /// Returns false if stopped.
   bool hide(size_t index, const TileSink& sink) {
     if (!sink.has || !sink.has(index)) {
       std::optional<DeepTile> tile;
-      if (sink.find && !context.isCancelled()) tile = sink.find(index);
+      if (sink.find && !context.stop.requested()) tile = sink.find(index);
       if (!tile) {
         const PixelRect rect = layout.rectOf(index);
         const CrashBucket here(rect.x0, rect.y0, rect.x1, rect.y1);

@@ -97,7 +97,7 @@ class CoarseNode : public OpeningNode {
   HideNodes open(const BucketRange& within) override {
     return nodesOfPieces(context_,
                          splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats,
-                                    context_.log, context_.cancelled),
+                                    context_.log, context_.stop),
                          zMin(), within);
   }
 
@@ -178,7 +178,7 @@ class PatchesNode : public OpeningNode {
     return nodesOfPieces(
         context_,
         splitPatches(context_.scene, object_, tree_->patches(level_, index_), context_.camera,
-                     context_.buckets.window(), context_.stats, context_.log, Splitting::Lazily, context_.cancelled),
+                     context_.buckets.window(), context_.stats, context_.log, Splitting::Lazily, context_.stop),
         zMin(), within);
   }
 
@@ -199,7 +199,7 @@ HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const B
     if (o.solid < 0 && !o.attributes->visibility.camera) continue;
     seen.push_back(i);
     auto& tree = trees[o.shapes];
-    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes, context.cancelled);
+    if (!tree) tree = std::make_shared<const PatchTree>(o.shapes, context.stop);
     if (o.solid < 0) continue;
     float& z = zOfSolid.try_emplace(o.solid, kInfinity).first->second;
     if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,

@@ -7,6 +7,7 @@
 #include <queue>
 #include <span>
 
+#include "reyes/base/stop.h"
 #include "reyes/frame/bucket_grid.h"
 #include "reyes/hide.h"
 #include "reyes/shade.h"
@@ -22,11 +23,9 @@ struct HideContext {
   const BucketGrid& buckets;
   Stats& stats;
   Log& log;
-  StopFlag cancelled = nullptr;
+  StopToken stop{};
   Counter liveGrids_bytes{0}, liveGeometry_bytes{0};
   std::mutex growth{};  ///< Guards growth of the scene and its shaders.
-
-  bool isCancelled() const { return cancelled && *cancelled; }
 };
 
 /// Notes for groups from `first` on whether their shaders want steps.

@@ -56,17 +56,17 @@ bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const 
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
-  const auto isCancelled = [&] {
-    if (!control.cancelled || !*control.cancelled) return false;
+  const auto isStopped = [&] {
+    if (!control.stop.requested()) return false;
     skipped = true;
     return true;
   };
   parallelInOrder(tiles.size(), [&](size_t i) {
-    if (isCancelled()) return;
+    if (isStopped()) return;
     DeepTile tile;
     if (steps.load(tiles[i], tile)) {
       if (tile.shaded.empty()) shadeTile(tile, scene, shading, context);
-      if (isCancelled()) return;
+      if (isStopped()) return;
       steps.take(tiles[i], std::move(tile));
     }
     if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(tiles.size()));

@@ -67,7 +67,7 @@ void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer,
     if (control.progress)
       control.progress(static_cast<float>(end - frame.crop.y0) / static_cast<float>(frame.crop.height()));
   }
-  const bool cut = control.cancelled && *control.cancelled;
+  const bool cut = control.stop.requested();
   files.close(cut ? std::min(tiles.finished(), std::nextafter(1.0f, 0.0f)) : 1.0f);
   warnOfNoise(filter.noise(), options, log);
   shading.warnOfLightNoise();
@@ -82,7 +82,7 @@ void showFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, 
   for (int y = frame.crop.y0; y < frame.crop.y1; y += kBandRows) {
     const int end = std::min(y + kBandRows, frame.crop.y1);
     tiles.moveTo(y, end);
-    if (control.cancelled && *control.cancelled) return;
+    if (control.stop.requested()) return;
     viewer(filter.rows(y, end));
   }
 }

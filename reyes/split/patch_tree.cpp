@@ -26,10 +26,10 @@ std::vector<uint32_t> inOrderOf(const std::vector<uint32_t>& places) {
 
 }  // namespace
 
-PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopFlag stop) : order_(shapes.front()->patchCount()) {
+PatchTree::PatchTree(const std::vector<PrimPtr>& shapes, StopToken stop) : order_(shapes.front()->patchCount()) {
   std::vector<Bound3> ofPatch(order_.size());
   parallelFor(ofPatch.size(), kLeaf, [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end && !(stop && *stop); ++p)
+    for (size_t p = begin; p < end && !stop.requested(); ++p)
       for (const PrimPtr& shape : shapes) ofPatch[p].extend(shape->bound(static_cast<uint32_t>(p), UvRect{}));
   });
   std::iota(order_.begin(), order_.end(), 0U);

@@ -38,7 +38,7 @@ std::vector<SubPatch> piecesBy(Splitter splitter, const Object& object, size_t e
 
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
-                                   Splitting splitting, StopFlag stop) {
+                                   Splitting splitting, StopToken stop) {
   return piecesBy(Splitter(scene, object, camera, window, stats, splitting, stop),
                   scene.objects[static_cast<size_t>(object)], patches.size(), stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) {
@@ -60,7 +60,7 @@ std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<con
 }
 
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
-                                 const PixelRect& window, Stats& stats, Log& log, StopFlag stop) {
+                                 const PixelRect& window, Stats& stats, Log& log, StopToken stop) {
   return piecesBy(Splitter(scene, coarse.object, camera, window, stats, Splitting::Lazily, stop),
                   scene.objects[static_cast<size_t>(coarse.object)], 1, stats, log,
                   [&](Splitter& splitter, std::vector<SubPatch>& out) { splitter.splitPiece(coarse, out); });

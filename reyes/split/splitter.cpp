@@ -59,7 +59,7 @@ bool isAlone(const Object& o, uint32_t patch) {
 }  // namespace
 
 Splitter::Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
-                   Splitting splitting, StopFlag stop)
+                   Splitting splitting, StopToken stop)
     : object_(scene.objects[static_cast<size_t>(object)]),
       index_(object),
       gridSize_(scene.options.gridSize),

@@ -17,7 +17,7 @@ class Splitter {
   };
 
   Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
-           Splitting splitting, StopFlag stop);
+           Splitting splitting, StopToken stop);
 
   /// Tells whether patches like this one may be dots. A shape has either disks only or none.
   bool hasDots(uint32_t patch) const {
@@ -88,7 +88,7 @@ class Splitter {
 
   SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const;
   bool isStill() const { return object_.keyTimes.size() == 1; }
-  bool stopped() const { return isSet(stop_); }
+  bool stopped() const { return stop_.requested(); }
 
   const Object& object_;
   const int index_, gridSize_;
@@ -96,7 +96,7 @@ class Splitter {
   const Camera& camera_;
   Stats& stats_;
   const bool lazily_;
-  const StopFlag stop_;
+  const StopToken stop_;
   const float edge_px_;
   const ObjectView view_;
   const Visits visits_;

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "reyes/app/batch/task.h"
-#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -29,9 +29,9 @@ class LocalRun {
     }
   }
 
-  bool finished() const { return running_.empty() && (interrupted() || !hasNext()); }
+  bool finished() const { return running_.empty() && (stopRequested() || !hasNext()); }
   void startSome() {
-    while (!interrupted() && static_cast<int>(running_.size()) < processes_) {
+    while (!stopRequested() && static_cast<int>(running_.size()) < processes_) {
       const auto next = std::find_if(open_.begin(), open_.end(), [&](size_t i) { return mayStart(i); });
       if (next == open_.end()) return;
       const size_t i = *next;
@@ -45,7 +45,7 @@ class LocalRun {
     bool any = false;
     for (auto it = running_.begin(); it != running_.end();) {
       auto& [i, task] = *it;
-      if (interrupted()) task->stop();
+      if (stopRequested()) task->stop();
       if (!task->ended()) {
         ++it;
         continue;

@@ -16,6 +16,7 @@
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/nursery.h"
 #include "reyes/base/process.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -96,11 +97,11 @@ int runTask(const BatchPlan& plan, const std::string& name) {
   for (int attempt = 1;; ++attempt) {
     RunningTask run(plan, *task, attempt);
     while (!run.ended()) {
-      if (interrupted()) run.stop();
+      if (stopRequested()) run.stop();
       std::this_thread::sleep_for(kPause);
     }
     if (run.state().kind == TaskState::Done) return kDone;
-    if (interrupted()) return kRequeue;
+    if (stopRequested()) return kRequeue;
     if (attempt == kMostAttempts) return kUnwritable;
     std::this_thread::sleep_for(kBeforeRetry);
   }

@@ -14,9 +14,9 @@
 
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/cpu_time.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/child_process.h"
+#include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
@@ -98,8 +98,8 @@ Ended await(pid_t child, Clock::time_point deadline) {
     return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == child;
   };
   while (!hasEnded()) {
-    if (out.why.empty() && (interrupted() || Clock::now() > deadline)) {
-      out.why = interrupted() ? "interrupted" : "over the budget";
+    if (out.why.empty() && (stopRequested() || Clock::now() > deadline)) {
+      out.why = stopRequested() ? "interrupted" : "over the budget";
       kill(-child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -152,8 +152,8 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
   for (const std::string& a : all) name += '\n' + a;
   const std::string stem = (fs::path(settings_.folder) / fmt::format("{:016x}", sumOf(name))).string();
   if (auto known = recall(stem, arguments)) return known;
-  why_ = interrupted() ? "interrupted" : "over the budget";
-  if (interrupted() || secondsLeft() <= 0) return std::nullopt;
+  why_ = stopRequested() ? "interrupted" : "over the budget";
+  if (stopRequested() || secondsLeft() <= 0) return std::nullopt;
 
   const TemporaryFolder folder(settings_.folder);
   const std::string picture = folder.path() / "picture.exr", statistics = folder.path() / "stats.json",
@@ -168,7 +168,7 @@ std::optional<Run> Lab::run(const std::vector<std::string>& arguments) {
       child, Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secondsLeft())));
   why_ = ended.why;
   if (std::string why; !ended.good || !moveFinished(picture, stem + ".exr", why)) {
-    if (!interrupted() && why_ != "over the budget") {
+    if (!stopRequested() && why_ != "over the budget") {
       const std::string said = complaint(readAll(messages));
       why_ += said.empty() ? " and said nothing (is \"" + settings_.folder + "\" on a full disk?)" : ": " + said;
     }

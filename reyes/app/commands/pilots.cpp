@@ -12,8 +12,8 @@
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/render_frame.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/chunk_file.h"
+#include "reyes/base/stop.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -35,7 +35,7 @@ class PilotRun {
         (held_.pilots.size() == 1 && settings_.quality.animationSettings.empty() && !settings_.quality.pilotFrames))
       return std::nullopt;
     read([this](Scene&& scene) { take(scene); }, true);
-    if (interrupted()) return std::nullopt;
+    if (stopRequested()) return std::nullopt;
     // A file that says that nothing was chosen keeps others from trying again.
     if (held_.worlds.empty()) return settings_.quality.animationSettings.empty() ? std::nullopt : std::optional(held_);
     std::vector<std::string> chosen;

@@ -77,10 +77,10 @@ class RenderRun {
     beginReading();
     const bool read = readAll(rib);
     endReading();
-    if (read && scenes_ == 0 && !made_ && !interrupted())
+    if (read && scenes_ == 0 && !made_ && !stopRequested())
       log_.report(Severity::Error, "no-world", {std::make_shared<std::string>(settings_.input.files.front()), 0},
                   "nothing to render: no WorldBegin ... WorldEnd was found");
-    if (scenes_ > 0 && rendered_ == 0 && settings_.input.frames && !settings_.input.frames->empty() && !interrupted())
+    if (scenes_ > 0 && rendered_ == 0 && settings_.input.frames && !settings_.input.frames->empty() && !stopRequested())
       log_.report(Severity::Error, "no-frame", {std::make_shared<std::string>(settings_.input.files.front()), 0},
                   "none of the frames that --frames names is in the scene");
     if (rendered_ > 0 && namesPicture(settings_.picture.output) && !outputUsed_)
@@ -128,7 +128,7 @@ class RenderRun {
       } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
-      if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.picture.resume && !interrupted() &&
+      if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.picture.resume && !stopRequested() &&
           errors() == errorsBefore)  // else the file may have been refused
         explainEmptyFrame(scene, log_);
       report_.end(scene.where);

@@ -26,18 +26,18 @@ std::string percentOf(const ErrorEstimate& e) {
 }  // namespace
 
 Audit::Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-             const AuditSettings& settings, const std::atomic<bool>& cancelled)
+             const AuditSettings& settings, StopToken stop)
     : scene_(scene),
       shading_(shading),
       settings_(settings),
-      pixels_(chooseAuditPixels(layout, tiles, settings.pixels, settings.seed, cancelled)),
+      pixels_(chooseAuditPixels(layout, tiles, settings.pixels, settings.seed, stop)),
       samplesPerPixel_(layout.samplesPerPixel),
-      cancelled_(cancelled),
+      stop_(stop),
       smudges_(
           layout, tiles, scene, shading,
           {std::max(settings.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), settings.smudgeSizes,
            settings.seed, kTimesLightSamplesOfBlocks * std::max({1, settings.lightSamples, shading.mostAreaSamples()})},
-          cancelled) {}
+          stop) {}
 
 AuditReport Audit::of(const ShadeContext& context) {
   AuditReport out;
@@ -99,7 +99,7 @@ int Audit::findIndirect(ShadeContext context) {
     const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
     return known.noise <= kNoiseOfError * known.mean || 2 * indirect_.rays > kMostPaths;
   };
-  while ((indirect_.rays == 0 || !isEnough()) && !cancelled_)
+  while ((indirect_.rays == 0 || !isEnough()) && !stop_.requested())
     addSets(indirect_, context, std::max(kFewestPaths, indirect_.rays));
   return indirect_.rays;
 }

@@ -2,13 +2,13 @@
 // compared with what the picture has there. Noise of the picture's own rays cannot tell how wrong it is, because
 // interpolation errs alike with every seed (docs/decisions/0145).
 #pragma once
-#include <atomic>
 #include <optional>
 
 #include "reyes/app/frame/audit_estimate.h"
 #include "reyes/app/frame/audit_pixels.h"
 #include "reyes/app/frame/audit_smudges.h"
 #include "reyes/base/stats.h"
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 #include "reyes/shade.h"
 
@@ -55,7 +55,7 @@ struct FoundLight {
 class Audit {
  public:
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-        const AuditSettings& settings, const std::atomic<bool>& cancelled);
+        const AuditSettings& settings, StopToken stop);
 
   /// Returns the errors of the picture that is shaded in this context. Pre: gathering is done, so that shading gives
   /// the picture's colours.
@@ -78,7 +78,7 @@ class Audit {
   const AuditSettings settings_;
   const std::vector<AuditPixel> pixels_;
   const int samplesPerPixel_;
-  const std::atomic<bool>& cancelled_;
+  StopToken stop_;
   std::vector<SampledColor> picture_;
   SmudgeAudit smudges_;
   FoundLight direct_, indirect_;

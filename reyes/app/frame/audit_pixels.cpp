@@ -144,12 +144,12 @@ SampledColor colorOf(const DeepTile& tile, const ivec2& at, int samplesPerPixel)
 }
 
 std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileReader& tiles, size_t count, uint32_t seed,
-                                          const std::atomic<bool>& cancelled) {
+                                          StopToken stop) {
   std::vector<AuditPixel> out;
   std::mutex merging;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const bool seen = layout.rectOf(t).overlaps(layout.crop);
-    const auto tile = seen && !cancelled ? tiles(t) : nullptr;
+    const auto tile = seen && !stop.requested() ? tiles(t) : nullptr;
     if (!tile) return;
     std::vector<AuditPixel> here = pixelsOfTile(*tile, layout.crop, count, seed);
     const std::lock_guard lock(merging);

@@ -1,8 +1,8 @@
 // The pixels of a picture that an audit looks at: some at random, each with all that its samples see.
 #pragma once
-#include <atomic>
 #include <span>
 
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 #include "reyes/shade.h"
 
@@ -23,7 +23,7 @@ struct SampledColor {
 /// Chooses at most `count` pixels of layout.crop that see a surface, and returns them by rows. The choice depends on
 /// the seed and on what the pixels see, never on threads or buckets.
 std::vector<AuditPixel> chooseAuditPixels(const DeepFrame& layout, const TileReader& tiles, size_t count, uint32_t seed,
-                                          const std::atomic<bool>& cancelled);
+                                          StopToken stop);
 
 std::vector<SampledColor> shadeAuditPixels(const std::vector<AuditPixel>& pixels, int samplesPerPixel,
                                            const Scene& scene, const ShadingSystem& shading,

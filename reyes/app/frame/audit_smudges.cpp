@@ -58,20 +58,19 @@ struct SmudgeAudit::Blocks {
 };
 
 SmudgeAudit::SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene,
-                         const ShadingSystem& shading, const SmudgeSettings& settings,
-                         const std::atomic<bool>& cancelled)
+                         const ShadingSystem& shading, const SmudgeSettings& settings, StopToken stop)
     : layout_(layout),
       tiles_(tiles),
       scene_(scene),
       shading_(shading),
       settings_(settings),
-      cancelled_(cancelled),
+      stop_(stop),
       across_((layout.padded.width() + kCellsAcross - 1) / kCellsAcross),
       covered_(static_cast<size_t>(across_) *
                static_cast<size_t>((layout.padded.height() + kCellsAcross - 1) / kCellsAcross)) {
   std::mutex counting;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = cancelled_ ? nullptr : tiles(t);
+    const auto tile = stop_.requested() ? nullptr : tiles(t);
     if (!tile) return;
     const std::lock_guard lock(counting);
     for (int y = tile->rect.y0; y < tile->rect.y1; ++y)
@@ -128,7 +127,7 @@ void SmudgeAudit::copyPixelsOf(Blocks& blocks) {
       part->cells.push_back(cell);
     }
   parallelFor(byTile.size(), 1, [&](size_t t, size_t) {
-    if (byTile[t].empty() || cancelled_) return;
+    if (byTile[t].empty() || stop_.requested()) return;
     const auto tile = tiles_(t);
     for (Part& part : byTile[t]) {
       PixelRect around{part.pixels[0].x, part.pixels[0].y, part.pixels[0].x + 1, part.pixels[0].y + 1};
@@ -151,7 +150,7 @@ std::vector<float> SmudgeAudit::shade(const Blocks& blocks, const ShadeContext& 
   std::vector<float> out(blocks.corners.size() * kPixelsOfBlock);
   parallelFor(blocks.parts.size(), 1, [&](size_t p, size_t) {
     const Part& part = blocks.parts[p];
-    if (cancelled_ || (half != kBothHalves && part.half != kBothHalves && part.half != half)) return;
+    if (stop_.requested() || (half != kBothHalves && part.half != kBothHalves && part.half != half)) return;
     DeepTile tile = part.tile;
     shadeTile(tile, scene_, shading_, context);
     for (size_t i = 0; i < part.pixels.size(); ++i)
@@ -214,7 +213,7 @@ std::vector<SmudgeEstimate> SmudgeAudit::of(const ShadeContext& given) {
     if (blocks.rays == 0) addSets(blocks, context, kFewestPathsOfBlocks);
     SmudgeEstimate found = estimate(blocks, picture);
     while (found.isKnown() && found.noise > kQuietBlocks * found.deviation && 2 * blocks.rays <= kMostPathsOfBlocks &&
-           !cancelled_) {
+           !stop_.requested()) {
       addSets(blocks, context, blocks.rays);
       found = estimate(blocks, picture);
     }

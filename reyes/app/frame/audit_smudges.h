@@ -1,9 +1,9 @@
 // The part of an audit that looks for smudges: light that is wrong over whole blocks of a smooth region. A mean over
 // all pixels hardly shows them, and an eye does.
 #pragma once
-#include <atomic>
 
 #include "reyes/app/frame/audit_estimate.h"
+#include "reyes/base/stop.h"
 #include "reyes/deep.h"
 #include "reyes/image.h"
 #include "reyes/shade.h"
@@ -22,7 +22,7 @@ struct SmudgeSettings {
 class SmudgeAudit {
  public:
   SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
-              const SmudgeSettings& settings, const std::atomic<bool>& cancelled);
+              const SmudgeSettings& settings, StopToken stop);
 
   ~SmudgeAudit();
 
@@ -45,7 +45,7 @@ class SmudgeAudit {
   const Scene& scene_;
   const ShadingSystem& shading_;
   const SmudgeSettings settings_;
-  const std::atomic<bool>& cancelled_;
+  StopToken stop_;
   const int across_;              ///< Cells of 8 x 8 pixels in a row.
   std::vector<uint8_t> covered_;  ///< Number of pixels in each cell that see something.
   std::vector<Blocks> sizes_;

@@ -9,24 +9,24 @@
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/time_budget.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
 void FrameLight::make(bool gathers) {
   const QualitySettings& quality = job_.settings().quality;
-  const bool steers = quality.chooses() && !interrupted() && isSteered();
+  const bool steers = quality.chooses() && !stopRequested() && isSteered();
   if (quality.isPilot && !steers) return;  // this pilot has nothing to choose
   if (steers && quality.targetError > 0) return reachTargetError(*this);
   if (steers)
     useTimeBudget(*this);
   else if (gathers)
     gather();
-  if (!quality.audits() || interrupted()) return;
+  if (!quality.audits() || stopRequested()) return;
   const AuditReport report = audit(lightSeedOf(job_.settings()));
-  if (interrupted()) return;
+  if (stopRequested()) return;
   tellAudit(report);
   if (quality.isHeld && quality.targetError > 0)
     tellMissed(report, quality, optionsOf(job_.quality()) + ", which hold for the animation", job_.log());
@@ -50,7 +50,7 @@ void FrameLight::gather() {
 }
 
 void FrameLight::gatherShown() {
-  if (!needsGather() || interrupted()) return;
+  if (!needsGather() || stopRequested()) return;
   const StageTimer timer(job_.stats(), "gather");
   const bool afterMaps = job_.mode() == GiMode::Atlas || job_.mode() == GiMode::Radiosity;
   const auto progress = job_.meter().gathering(afterMaps);
@@ -60,24 +60,24 @@ void FrameLight::gatherShown() {
   context.purpose = Purpose::Sketch;
   if (Preview* preview = job_.preview(layout_))
     show = [&, preview](int stride) {
-      preview->show(sketch(layout_, tiles_, stride, job_.scene(), job_.shading(), context, interrupted()));
+      preview->show(sketch(layout_, tiles_, stride, job_.scene(), job_.shading(), context, processStop()));
     };
   gatherRecords(progress, show);
-  if (!interrupted()) progress(1);
+  if (!stopRequested()) progress(1);
 }
 
 void FrameLight::endGather() {
   if (!needsGather()) return;
   GiServices& services = *job_.services();
   warnOfNoise(services.caches(), job_.log());
-  if (!interrupted()) services.tellBouncesLeft(job_.log());
+  if (!stopRequested()) services.tellBouncesLeft(job_.log());
   if (job_.rays()) warnOfThinWalls(*job_.rays(), job_.log());
-  if (!job_.settings().stored.bakedFolder.empty() && job_.gathers() && !interrupted())
+  if (!job_.settings().stored.bakedFolder.empty() && job_.gathers() && !stopRequested())
     bakeGathered(services, layout_, tiles_, job_.scene(), job_.shading(), job_.settings(), job_.log());
 }
 
 void FrameLight::gatherRecords(const std::function<void(float)>& progress, const std::function<void(int)>& covered) {
-  if (needsGather() && !interrupted()) job_.services()->gatherPass(layout_, tiles_, progress, &interrupted(), covered);
+  if (needsGather() && !stopRequested()) job_.services()->gatherPass(layout_, tiles_, progress, processStop(), covered);
 }
 
 AuditSettings FrameLight::auditSettings(uint32_t seed) const {
@@ -93,7 +93,7 @@ AuditSettings FrameLight::auditSettings(uint32_t seed) const {
 AuditReport FrameLight::audit(uint32_t seed) {
   const StageTimer timer(job_.stats(), "audit");
   job_.meter().begin("auditing");
-  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditSettings(seed), interrupted())
+  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditSettings(seed), processStop())
       .of(job_.shadeContext());
 }
 
@@ -119,7 +119,7 @@ void writeSketch(const FrameLight& light) {
   const std::filesystem::path file(fileOf(first));
   job.setSketchFile((file.parent_path() / (file.stem().string() + ".sketch.exr")).string());
   writeImage(job.sketchFile(),
-             sketch(light.layout(), light.tiles(), kStride, job.scene(), job.shading(), context, interrupted()), false,
+             sketch(light.layout(), light.tiles(), kStride, job.scene(), job.shading(), context, processStop()), false,
              job.log());
 }
 

@@ -7,11 +7,11 @@
 
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/turns_timer.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/app/watch/pixel_report.h"
 #include "reyes/app/watch/preview.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -75,7 +75,7 @@ void PictureWriter::tellNoise(DeepTile& tile) const {
 
 void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t tile)>& load) {
   ShadeContext context = job_.shadeContext();
-  const bool cut = interrupted(), resumes = cut && job_.kept();
+  const bool cut = stopRequested(), resumes = cut && job_.kept();
   if (cut) {
     // Without --resume the hidden buckets are shaded with direct light, which a second signal ends too. With --resume
     // such light would be thrown away.
@@ -105,7 +105,7 @@ void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t til
                              if (!cut) keepColors(index, tile);
                              place(index, std::move(tile), put);
                            }};
-    const FrameControl control{tell, cut ? nullptr : &interrupted(), job_.settings().picture.seed};
+    const FrameControl control{tell, cut ? StopToken() : processStop(), job_.settings().picture.seed};
     complete = shadeTiles(tiles, steps, job_.scene(), job_.shading(), context, control) && complete;
     shaded += tiles.size();
   });
@@ -117,7 +117,7 @@ void PictureWriter::hideAndWrite(const std::function<std::optional<DeepTile>(siz
   const auto progress = [of = job_.meter().hidingAndShading()](float share) {  // what is left is to write the last rows
     of(0.99f * share);
   };
-  const FrameControl control{progress, &interrupted(), job_.settings().picture.seed};
+  const FrameControl control{progress, processStop(), job_.settings().picture.seed};
   FrameHider hider(layout_, job_.scene(), job_.shading(), control, job_.stats(), job_.log());
   bool complete = true;
   std::atomic<bool> dropped{false};
@@ -130,7 +130,7 @@ void PictureWriter::hideAndWrite(const std::function<std::optional<DeepTile>(siz
                           if (!takeShaded(job_.kept(), index, tile))
                             shadeTile(tile, job_.scene(), job_.shading(), job_.shadeContext());
                           tellNoise(tile);
-                          if (interrupted()) {  // as shadeTiles() does
+                          if (stopRequested()) {  // as shadeTiles() does
                             dropped = true;
                             return;
                           }
@@ -157,12 +157,12 @@ void PictureWriter::finish(const TileFill& fill) {
   const RenderSettings& settings = job_.settings();
   makeRoomForStatistics(job_.scene().options, settings);
   writeFrame(frame_, fill, viewer, job_.scene(), job_.shading(),
-             {{}, &interrupted(), settings.picture.seed, pluginTrust(settings)}, job_.stats(), job_.log());
+             {{}, processStop(), settings.picture.seed, pluginTrust(settings)}, job_.stats(), job_.log());
   if (job_.services()) job_.services()->reportAtlas(job_.stats());
   if (job_.rays()) job_.rays()->report(job_.stats());
   job_.closePreview();
   job_.clouds().write(job_.log());
-  if (interrupted()) return;
+  if (stopRequested()) return;
   std::error_code failed;
   if (!job_.sketchFile().empty()) std::filesystem::remove(job_.sketchFile(), failed);
   job_.meter().finish();

@@ -1,7 +1,7 @@
 #include "reyes/app/frame/frame_stages.h"
 
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/parallel.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -17,22 +17,22 @@ ShadeContext contextOf(const FrameJob& job, const ShownLight& light) {
 
 bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink) {
   const StageTimer timer(job.stats(), "hide");
-  const FrameControl control{job.meter().hiding(job.gathersBeside(false)), &interrupted(), job.settings().picture.seed};
+  const FrameControl control{job.meter().hiding(job.gathersBeside(false)), processStop(), job.settings().picture.seed};
   return hideTiles(layout, job.scene(), job.shading(), control, job.stats(), job.log(), sink);
 }
 
 bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps) {
   const StageTimer timer(job.stats(), "shade");
-  const FrameControl control{job.meter().shading(), &interrupted(), job.settings().picture.seed};
+  const FrameControl control{job.meter().shading(), processStop(), job.settings().picture.seed};
   return shadeTiles(tiles, steps, job.scene(), job.shading(), job.shadeContext(), control);
 }
 
 void showWindow(FrameJob& job, const DeepFrame& layout, const PixelRect& window, const ShownTiles& tiles,
-                const ShownLight& light, const RowViewer& viewer, const std::atomic<bool>& cancelled) {
+                const ShownLight& light, const RowViewer& viewer, StopToken stop) {
   const ShadeContext context = contextOf(job, light);
   DeepFrame frame = layout;
   frame.crop = window;
-  const FrameControl control{{}, &cancelled, job.settings().picture.seed};
+  const FrameControl control{{}, stop, job.settings().picture.seed};
   const auto fill = [&](std::span<const uint32_t> asked, const TilePlace& put) {
     const auto take = [&](size_t index, DeepTile&& tile) {
       tiles.shaded(index, tile);

@@ -1,6 +1,7 @@
 // Stages of a prepared frame that leave no picture in a file.
 #pragma once
 #include "reyes/app/frame/frame_job.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -20,9 +21,9 @@ struct ShownTiles {
   std::function<void(size_t index, const DeepTile& tile)> shaded;
 };
 /// Shades the window of the frame for the viewer alone, before exposure and imager. It can be called again and again.
-/// If it is cancelled, the viewer may get no rows.
+/// If it is stopped, the viewer may get no rows.
 void showWindow(FrameJob& job, const DeepFrame& layout, const PixelRect& window, const ShownTiles& tiles,
-                const ShownLight& light, const RowViewer& viewer, const std::atomic<bool>& cancelled);
+                const ShownLight& light, const RowViewer& viewer, StopToken stop);
 /// Shades tiles that are no picture.
 void shadeApart(FrameJob& job, std::span<DeepTile> tiles, const ShownLight& light);
 

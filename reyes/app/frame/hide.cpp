@@ -8,7 +8,6 @@
 #include "reyes/app/frame/empty_frame.h"
 #include "reyes/app/frame/frame_stages.h"
 #include "reyes/app/frame/outputs.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/input_file.h"
 
 namespace tomales {

@@ -12,8 +12,8 @@
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/tile_store.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/process.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -168,7 +168,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                  streams ? "the picture was made row by row, and the buckets of earlier rows were dropped"
                          : fmt::format("{} of {} buckets rested in a file", file.spilled(), layout.tileCount()),
                  stats, log);
-  if (interrupted() || log.worst() == Severity::Output) return;
+  if (stopRequested() || log.worst() == Severity::Output) return;
   file.forget();
   if (kept) kept->forget();
 }

@@ -11,8 +11,8 @@
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
 #include "reyes/app/frame/provenance.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/search_path.h"
+#include "reyes/base/stop.h"
 #include "reyes/rib.h"
 
 namespace tomales {
@@ -195,9 +195,8 @@ void ShotJob::choose(const std::string* lights, bool indirect) {
   job_->services()->mixShares(std::move(gains), std::move(chosen));
 }
 
-void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
-                   const std::atomic<bool>& cancelled) {
-  showWindow(*job_, shot_.frame, window, tiles, shown_, viewer, cancelled);
+void ShotJob::show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer, StopToken stop) {
+  showWindow(*job_, shot_.frame, window, tiles, shown_, viewer, stop);
 }
 
 void ShotJob::shadeApart(std::span<DeepTile> tiles) { tomales::shadeApart(*job_, tiles, shown_); }
@@ -270,7 +269,7 @@ void ShotJob::gatherIrradiance() {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   }).gather();
   const bool written = !settings_.stored.keepsAnswers || (recordAnswers(*out) && copyAnswers(inCrop, *out));
-  IrradianceShot shot{interrupted() ? 0 : files_->dfb().shotSum(),
+  IrradianceShot shot{stopRequested() ? 0 : files_->dfb().shotSum(),
                       job_->giSettings(),
                       shot_.scene.cameraFromWorldAtOpen(),
                       {},
@@ -282,7 +281,7 @@ void ShotJob::gatherIrradiance() {
   world_->report();
   if (!written || !out->finish(shot)) return unwritten(out->error());
   stats_.addOutput(settings_.picture.output);
-  if (kept_ && !interrupted()) kept_->forget();
+  if (kept_ && !stopRequested()) kept_->forget();
 }
 
 // Shades the picture once, for the answers of its rays.

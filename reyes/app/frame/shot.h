@@ -6,6 +6,7 @@
 #include "reyes/app/frame/light_edits.h"
 #include "reyes/app/frame/ray_world.h"
 #include "reyes/app/frame/shot_files.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -35,8 +36,7 @@ class ShotJob {
   void shadeApart(std::span<DeepTile> tiles);
   /// Returns the names of lights and objects whose bounced light is as it was gathered, before an edit of them.
   std::vector<std::string> staleLight() const;
-  void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer,
-            const std::atomic<bool>& cancelled);
+  void show(const PixelRect& window, const ShownTiles& tiles, const RowViewer& viewer, StopToken stop);
 
   const Shot& shot() const { return shot_; }
   const FrameJob& job() const { return *job_; }  ///< Pre: prepareToShow(), as for the next two.

@@ -6,9 +6,9 @@
 
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/trials.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -43,16 +43,16 @@ class TargetSearch {
     const TrialSettings trialSettings{.seed = seedOfTrials(settings_),
                                       .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
     TrialsResult trials = makeTrials(light_, trialSettings);
-    if (interrupted()) return;
+    if (stopRequested()) return;
     ErrorModel& model = trials.model;
     LightQuality quality = model.cheapest(target_ * kMargin);
     tellChoice(trials, quality);
     for (int attempt = 1;; ++attempt) {
       job_.setQuality(quality);
       light_.gather();
-      if (interrupted()) return;
+      if (stopRequested()) return;
       const AuditReport report = light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)));
-      if (interrupted()) return;
+      if (stopRequested()) return;
       // More rays in the picture do not quieten the audit.
       const bool isNear = errorIsNear(report, target_) && smudgesAreNear(report, target_);
       const SmudgeEstimate* smudges = report.finestSmudges();

@@ -7,7 +7,7 @@
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/target.h"
 #include "reyes/app/frame/trials.h"
-#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -42,9 +42,9 @@ class BudgetedFrame {
       gatherInRounds();
     else
       choose(trials_.model.best(left_s()));
-    if (interrupted()) return;
+    if (stopRequested()) return;
     measureShading();
-    if (interrupted()) return;
+    if (stopRequested()) return;
     spendRest();
     tell(planned_s);
   }
@@ -81,7 +81,7 @@ class BudgetedFrame {
       choose(next);
       const double before_s = job_.elapsed_s();
       light_.gatherShown();
-      if (interrupted()) return;
+      if (stopRequested()) return;
       const double took_s = job_.elapsed_s() - before_s;
       tellStep("gathering", quality_, model.gatherCost(quality_), took_s);
       model.correctGatherCost(quality_, took_s);
@@ -91,7 +91,7 @@ class BudgetedFrame {
       if (round == kMostRounds || model.cost(next) > left || model.error(next) > kBetter * model.error(stays)) break;
       if (round > 1 || !mayProbe(next, left)) continue;
       learnRays(quality_.samples, next);
-      if (interrupted()) return;
+      if (stopRequested()) return;
       model.correctGatherCost(quality_, took_s);
       next = bestAfter(quality_, std::max(0.0, left_s()));
       if (model.error(next) > model.error(quality_)) next = quality_;  // the probe took too long
@@ -133,7 +133,7 @@ class BudgetedFrame {
     const size_t count = bucketsOfProbe();
     const std::span<const size_t> which = std::span(trials_.tried).first(count);
     const QualityTrial cheap = secondsToGather(light_, which, few);
-    if (interrupted()) return;
+    if (stopRequested()) return;
     const QualityTrial dear = secondsToGather(light_, which, many);
     log_.report(Severity::Info, "time-budget", {},
                 fmt::format("after {:.3g} s: {} buckets took {:.3g} s with {} and {:.3g} s with {}", job_.elapsed_s(),

@@ -10,8 +10,8 @@
 
 #include "reyes/app/frame/audit.h"
 #include "reyes/app/frame/frame_stages.h"
-#include "reyes/app/watch/interrupt.h"
 #include "reyes/base/rng.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -85,7 +85,7 @@ class Trials {
     auditSettings.lightSamples = finer.lightSamples;
     auditSettings.smudgeSizes = kSmudgeSizesOfTrials;
     if (settings_.isBrief) auditSettings.pixels = kPixelsOfBriefTrials;
-    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), auditSettings, interrupted());
+    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), auditSettings, processStop());
     const QualityTrial first = trial(base, audit), second = trial(finer, audit);
     const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
     ErrorModel model(first, second, third);
@@ -185,7 +185,7 @@ QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> wh
 double secondsToShade(const FrameLight& light, std::span<const size_t> which) {
   constexpr size_t kAtOnce = 64;
   const double start_s = seconds();
-  for (size_t first = 0; first < which.size() && !interrupted(); first += kAtOnce) {
+  for (size_t first = 0; first < which.size() && !stopRequested(); first += kAtOnce) {
     std::vector<DeepTile> copies;
     for (const size_t t : which.subspan(first, std::min(kAtOnce, which.size() - first)))
       if (const auto tile = light.tiles()(t)) copies.push_back(*tile);

@@ -40,8 +40,8 @@ void EditSession::tellThread() {
   asked_.notify_all();
 }
 
-void EditSession::cancelIfUseless() {
-  if (running_ && !order_.isWanted(*running_, layers_)) cancelled_ = true;
+void EditSession::stopIfUseless() {
+  if (running_ && !order_.isWanted(*running_, layers_)) stop_ = true;
 }
 
 void EditSession::edit(const EditState& state) {
@@ -49,7 +49,7 @@ void EditSession::edit(const EditState& state) {
   if (mayBeLinearElsewhere(state, layers_.present())) order_.isChecked = false;
   order_.wantsWhole = false;
   layers_.edit(state);
-  cancelIfUseless();
+  stopIfUseless();
   tellThread();
 }
 
@@ -61,7 +61,7 @@ EditState EditSession::present() const {
 void EditSession::showVariable(const std::string& name) {
   const std::lock_guard lock(mutex_);
   layers_.showVariable(name);
-  cancelIfUseless();
+  stopIfUseless();
   tellThread();
 }
 
@@ -142,7 +142,7 @@ std::optional<Step> EditSession::begin() {
   timesSeen_ = timesAsked_;
   if (ended_) return std::nullopt;
   running_ = order_.next(layers_, parts_);
-  cancelled_ = false;
+  stop_ = false;
   return running_;
 }
 
@@ -150,7 +150,7 @@ bool EditSession::finish() {
   const std::lock_guard lock(mutex_);
   const Step step = *running_;
   running_.reset();
-  if (cancelled_) return false;
+  if (stop_) return false;
   order_.finish(step, layers_);
   return step.kind == Step::Part && !layers_[step.layer].parts.areOld();
 }
@@ -177,12 +177,12 @@ void EditSession::setStale(std::vector<std::string> names) {
 
 void EditSession::setNotLinear(std::vector<std::string> names) {
   const std::lock_guard lock(mutex_);
-  if (!cancelled_) notLinear_ = std::move(names);
+  if (!stop_) notLinear_ = std::move(names);
 }
 
 void EditSession::takeCoarse(size_t layer, const std::function<void()>& show) {
   const std::lock_guard lock(mutex_);
-  if (cancelled_) return;
+  if (stop_) return;
   layers_[layer].parts.forgetAll();
   show();
 }
@@ -198,7 +198,7 @@ void EditSession::takeGathered(const std::string& file, const PixelRect& p) {
 void EditSession::end() {
   const std::lock_guard lock(mutex_);
   ended_ = true;
-  cancelled_ = true;
+  stop_ = true;
   tellThread();
 }
 

@@ -2,10 +2,10 @@
 // running step, and what has been found. An edit that makes the running step useless ends it. It owns the one lock of
 // all that. Threads: any.
 #pragma once
-#include <atomic>
 #include <condition_variable>
 
 #include "reyes/app/relight/work_order.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 
@@ -34,38 +34,38 @@ class EditSession {
   // For the thread that shades.
   /// Returns the next step, which runs until finish(); nothing if all is done, or after end().
   std::optional<Step> begin();
-  /// Ends the running step, which is done unless it was cancelled. Returns true if its layer has no old parts any more.
+  /// Ends the running step, which is done unless it was stopped. Returns true if its layer has no old parts any more.
   bool finish();
   /// Waits, after begin() has returned nothing, until a page has asked for something.
   void wait();
-  /// Set while the running step is of no use any more.
-  const std::atomic<bool>& cancelled() const { return cancelled_; }
+  /// Asks for a stop once the running step is of no use any more.
+  StopToken stop() const { return stop_; }
   bool isRehearsed() const;
   size_t layerCount() const { return layers_.count(); }
   Layer layer(size_t layer) const;
   /// Sets the names of lights and objects whose bounced light is of another edit.
   void setStale(std::vector<std::string> names);
-  /// Sets the names of objects whose light does not add up, unless the running step was cancelled.
+  /// Sets the names of objects whose light does not add up, unless the running step was stopped.
   void setNotLinear(std::vector<std::string> names);
-  /// Calls `show` to show a coarse layer, unless the running step was cancelled.
+  /// Calls `show` to show a coarse layer, unless the running step was stopped.
   void takeCoarse(size_t layer, const std::function<void()>& show);
   /// Notes that pixels were gathered: nothing that has been shaded counts any more.
   void takeGathered(const std::string& file, const PixelRect& pixels);
 
-  /// Cancels the running step; no other begins.
+  /// Stops the running step; no other begins.
   void end();
   bool hasEnded() const;
 
  private:
   void tellThread();
-  void cancelIfUseless();
+  void stopIfUseless();
 
   const PictureParts& parts_;
   mutable std::mutex mutex_;  ///< Guards what follows.
   EditedLayers layers_;
   WorkOrder order_;
   std::optional<Step> running_;
-  std::atomic<bool> cancelled_{false};  ///< Set with the lock.
+  std::atomic<bool> stop_{false};  ///< Set with the lock.
   std::vector<std::string> stale_, notLinear_;
   std::vector<PixelRect> gathered_;  ///< From the window's corner.
   std::string gatheredFile_;

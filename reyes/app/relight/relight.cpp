@@ -102,10 +102,10 @@ class RelightServer {
     const OrderlyEnd orderly;
     const bool isPrepared = relighting_.prepare();
     const int code = exitCodeOf(log_, shot_.report.strict);
-    if (!isPrepared || interrupted()) return code;
+    if (!isPrepared || stopRequested()) return code;
     relighting_.start();
     prepared_.open(true);
-    while (!interrupted() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    while (!stopRequested() && !ended_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     ended_ = true;
     relighting_.layers().wake();
     return code;

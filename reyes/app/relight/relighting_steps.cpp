@@ -90,7 +90,7 @@ void Relighting::shadePart(const Step& step) {
   job.choose(layer.lights ? &lights : nullptr, layer.indirect);
   shared_->begin(step.layer, step.number);
   const auto take = [&](const Image& rows) { pictures_->take(step, rows, job); };
-  job.show(part, tilesOf(step, layer), take, session_->cancelled());
+  job.show(part, tilesOf(step, layer), take, session_->stop());
 }
 
 void Relighting::shadeCoarse(const Step& step) {
@@ -107,7 +107,7 @@ void Relighting::shadeCoarse(const Step& step) {
 void Relighting::rehearse(const Step& step) {
   ShotJob& job = jobFor(step.edit);
   status_.tell("preparing for edits", 0);
-  for (size_t i = kGlow; i + 1 < session_->layerCount() && !session_->cancelled(); ++i) {
+  for (size_t i = kGlow; i + 1 < session_->layerCount() && !session_->stop().requested(); ++i) {
     const Layer layer = session_->layer(i);
     job.choose(&*layer.lights, layer.indirect);
     std::vector<vec3> colors = sketch_->shade(job);
@@ -130,9 +130,9 @@ void Relighting::checkLinearity(const Step& step) {
   ShotJob& job = jobFor(sum.edit());
   job.choose(nullptr, true);
   const auto compare = [&](const Image& rows) { sum.compare(rows); };
-  for (size_t i = 0; i < parts_->count() && !session_->cancelled(); i += kPartsPerCheck) {
+  for (size_t i = 0; i < parts_->count() && !session_->stop().requested(); i += kPartsPerCheck) {
     const PixelRect& part = (*parts_)[i];
-    if (part.width() > 0 && part.height() > 0) job.show(part, plainTiles(), compare, session_->cancelled());
+    if (part.width() > 0 && part.height() > 0) job.show(part, plainTiles(), compare, session_->stop());
     sum.forgetBuckets();
   }
   session_->setNotLinear(sum.objectsOff());

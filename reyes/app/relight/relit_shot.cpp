@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reyes/app/watch/interrupt.h"
+#include "reyes/base/stop.h"
 
 namespace tomales {
 namespace {
@@ -19,7 +19,7 @@ RelitShot::RelitShot(const RenderSettings& settings, Stats& stats, Log& log)
 
 std::unique_ptr<ShotJob> RelitShot::open() {
   if (settings_.stored.irradiance.empty() && !gatherFirst()) return nullptr;
-  if (interrupted() || !openFiles()) return nullptr;
+  if (stopRequested() || !openFiles()) return nullptr;
   auto job = ShotJob::open(files_, settings_, stats_, log_);
   if (!job) return nullptr;
   job->prepareToShow();

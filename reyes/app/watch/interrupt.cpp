@@ -58,8 +58,6 @@ void watchSignals() {
 OrderlyEnd::OrderlyEnd() { endsOrderly = true; }
 OrderlyEnd::~OrderlyEnd() { endsOrderly = false; }
 
-const std::atomic<bool>& interrupted() { return stopFlag(); }
-
-int interruptExitCode() { return interrupted() ? 128 + signalNumber : 0; }
+int interruptExitCode() { return stopRequested() ? 128 + signalNumber : 0; }
 
 }  // namespace tomales

@@ -1,10 +1,9 @@
 // The end of the program by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as nohup has it). Work that can keep
-// what is finished asks for an orderly end: the first signal then sets a flag that its stages watch. A second signal,
-// or the first one during other work, as while RIB is read, ends the process at once, without leaving unfinished files
-// or programs behind (reyes/base/abrupt_end.h). So does a shader that does not return within 10 s, which is told.
+// what is finished asks for an orderly end: the first signal then asks for a stop, which its stages watch. A second
+// signal, or the first one during other work, as while RIB is read, ends the process at once, without leaving
+// unfinished files or programs behind (reyes/base/abrupt_end.h). So does a shader that does not return within 10 s,
+// which is told.
 #pragma once
-#include <atomic>
-
 namespace tomales {
 
 /// Opens standard files that are closed, in a way that their use fails as it would have. Otherwise the next file that
@@ -13,14 +12,13 @@ void openStandardFiles();
 /// Call it once, before other threads start: they must not get the signals. A pipe that nobody reads any more (SIGPIPE)
 /// and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().
 void watchSignals();
-/// While one exists, the first signal sets interrupted(). They do not nest.
+/// While one exists, the first signal asks for a stop (reyes/base/stop.h). They do not nest.
 class OrderlyEnd {
  public:
   OrderlyEnd();
   ~OrderlyEnd();
   OrderlyEnd(const OrderlyEnd&) = delete;
 };
-const std::atomic<bool>& interrupted();
 /// Returns 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM, 0 if none came.
 int interruptExitCode();
 

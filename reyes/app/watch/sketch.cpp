@@ -51,13 +51,13 @@ void addCorners(const DeepTile& tile, int stride, const ivec2& origin, DeepTile&
 }
 
 Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene,
-             const ShadingSystem& shading, const ShadeContext& context, const std::atomic<bool>& cancelled) {
+             const ShadingSystem& shading, const ShadeContext& context, StopToken stop) {
   const PixelRect& crop = layout.crop;
   Image out{crop.width(), crop.height(), {"R", "G", "B", "A"},      {},
             crop.x0,      crop.y0,       scene.options.xResolution, scene.options.yResolution};
   out.pixels.resize(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * out.channels.size());
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
-    const auto tile = cancelled ? nullptr : tiles(t);
+    const auto tile = stop.requested() ? nullptr : tiles(t);
     if (!tile) return;
     DeepTile reduced;
     std::vector<Corner> corners;

@@ -1,5 +1,6 @@
 // A coarse picture of a frame before it is shaded, from the nearest point in one pixel of every square.
 #pragma once
+#include "reyes/base/stop.h"
 #include "reyes/frame.h"
 
 namespace tomales {
@@ -16,8 +17,8 @@ void addCorners(const DeepTile& tile, int stride, const ivec2& origin, DeepTile&
 
 /// Returns squares of `stride` pixels, R G B A of the crop window, exposed and through the imager, each in the colour
 /// of its corner's first point. It shades nothing else, so that all strides of the gather pass together cost a third of
-/// shading. If it is cancelled, the missing squares are black.
+/// shading. If it is stopped, the missing squares are black.
 Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene,
-             const ShadingSystem& shading, const ShadeContext& context, const std::atomic<bool>& cancelled);
+             const ShadingSystem& shading, const ShadeContext& context, StopToken stop);
 
 }  // namespace tomales

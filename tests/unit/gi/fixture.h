@@ -179,7 +179,7 @@ inline DeepFrame frameOf(const World& world, int bucket) {
 }
 
 inline void gatherFrame(GiServices& services, const DeepFrame& frame) {
-  services.gatherPass(frame, readerOf(frame), {}, nullptr);
+  services.gatherPass(frame, readerOf(frame), {}, {});
 }
 
 /// indirectDiffuse() at every point of a batch, on the side of the eye.

@@ -62,7 +62,7 @@ TEST(Split, EndsWhenToldToStop) {
   Log log(Log::Verbosity::Quiet);
   std::atomic<bool> stop{false};
   const auto count = [&] {
-    return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, &stop)
+    return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, stop)
         .size();
   };
   EXPECT_GT(count(), 0u);
