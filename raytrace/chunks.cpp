@@ -122,7 +122,7 @@ void Chunks::measure(TiledPatch& tiled, Piece& piece) const {
     const auto [nu, nv] = piece.rate[index(level)];
     const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
     const uint32_t name =
-        hashCombine(o.name, tiled.patch, static_cast<uint32_t>(tiled.pieces.size()), static_cast<uint32_t>(level));
+        hashCombine(o.sampleKey, tiled.patch, static_cast<uint32_t>(tiled.pieces.size()), static_cast<uint32_t>(level));
     const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
     const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
     const auto within = [](float a, float b, int k, int n) {

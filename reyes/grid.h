@@ -19,8 +19,8 @@ struct PatchPiece {
 
 struct Grid {
   struct Piece : PatchPiece {
-    uint8_t openEdges = 0;  ///< PatchEdge bits of the edges that end the surface; the others join a neighbour.
-    uint32_t name = 0;      ///< Stable name for random numbers.
+    uint8_t openEdges = 0;   ///< PatchEdge bits of the edges that end the surface; the others join a neighbour.
+    uint32_t sampleKey = 0;  ///< Key of its random numbers (SampleName).
   };
 
   int object = -1;     ///< Index in Scene::objects.

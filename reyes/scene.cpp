@@ -188,12 +188,12 @@ void Scene::freeze() {
   groupsByHash_.clear();
   for (size_t i = 0; i < objects.size(); ++i) {
     derive(objects[i]);
-    objects[i].name = static_cast<uint32_t>(i);
+    objects[i].sampleKey = static_cast<uint32_t>(i);
     findGroup(objects[i], static_cast<int>(i));
   }
   for (size_t i = 0; i < procedurals.size(); ++i) {
     derive(procedurals[i]);
-    procedurals[i].name = hashCombine(randomStream("proc"), static_cast<uint32_t>(i));
+    procedurals[i].sampleKey = hashCombine(randomStream("proc"), static_cast<uint32_t>(i));
   }
 }
 
@@ -202,11 +202,11 @@ Expansion Scene::expanded(const Procedural& procedural) const {
   uint32_t number = 0;
   for (Object& o : out.objects) {
     derive(o);
-    o.name = hashCombine(procedural.name, number++);
+    o.sampleKey = hashCombine(procedural.sampleKey, number++);
   }
   for (Procedural& p : out.procedurals) {
     derive(p);
-    p.name = hashCombine(procedural.name, number++);
+    p.sampleKey = hashCombine(procedural.sampleKey, number++);
   }
   return out;
 }

@@ -44,7 +44,8 @@ struct Object {
   bool flipsNormal = false;     ///< True if either cameraFromObject mirrors or Orientation is inside, but not both.
   bool subtracted = false;      ///< Its solid lies on the side of its normals, which are turned for shading.
   int group = -1;               ///< Index of its ShadeGroup.
-  uint32_t name = 0;            ///< Name for random numbers: the same for any order in which procedurals are expanded.
+  /// Key of its random numbers (SampleName): the same for any order in which procedurals are expanded.
+  uint32_t sampleKey = 0;
 
   const Prim& shape() const { return *shapes.front(); }
   /// Before the first of `shapeTimes` and after the last, the shape stays as it is then.
@@ -87,7 +88,7 @@ struct Procedural {
   Motion cameraFromObject;
   std::vector<float> keyTimes;
   float displacementBound = 0;
-  uint32_t name = 0;
+  uint32_t sampleKey = 0;  ///< As of objects.
 };
 
 /// The contents of a procedural, which may have further procedurals.

@@ -37,7 +37,7 @@ TOMALES_HOT void transformDirections(const mat3& m, int n, Triple<const float> f
   }
 }
 
-uint32_t nameOf(uint32_t object, uint32_t patch, const UvRect& r, int nu, int nv) {
+uint32_t sampleKeyOf(uint32_t object, uint32_t patch, const UvRect& r, int nu, int nv) {
   const auto bits = [](float f) { return __builtin_bit_cast(uint32_t, f); };
   return hashCombine(object, patch, bits(r.u0), bits(r.u1), bits(r.v0), bits(r.v1), static_cast<uint32_t>(nu),
                      static_cast<uint32_t>(nv));
@@ -123,7 +123,7 @@ Grid emptyGrid(const Object& o, int object, std::span<const PatchPiece> pieces, 
   g.pieces.clear();
   g.pieces.reserve(pieces.size());
   for (const PatchPiece& p : pieces)
-    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), nameOf(o.name, p.patch, p.rect, nu, nv)});
+    g.pieces.push_back({p, openEdgesOf(prim.info(p.patch), p.rect), sampleKeyOf(o.sampleKey, p.patch, p.rect, nu, nv)});
   g.allocate(nu, nv, keyCount, floatsOfPoint(prim.primvars()) + displacementFloats(*o.attributes), pool);
   g.kept = keptOfCells(prim, g);
   return g;

@@ -31,7 +31,7 @@ bool GridTable::precedes(uint32_t a, uint32_t b) const {
     const Grid& g = e.grid();
     const int number = static_cast<int>(cell - e.firstCell);
     const Grid::Piece& p = g.pieces[static_cast<size_t>(g.pieceOfCell(number))];
-    return std::make_tuple(p.name, g.object, p.patch, p.rect.u0, p.rect.v0, g.cellInPiece(number));
+    return std::make_tuple(p.sampleKey, g.object, p.patch, p.rect.u0, p.rect.v0, g.cellInPiece(number));
   };
   return rank(a) < rank(b);
 }

@@ -20,7 +20,8 @@ SampleName nameOf(const Batch& batch, const TmGrid* g, int i) {
   if (batch.points) return batch.points->name(i % batch.points->count());
   if (!batch.grid) return {};
   const Object& object = batch.scene.scene.objects[static_cast<size_t>(batch.grid->object)];
-  return {hashCombine(object.name, __builtin_bit_cast(uint32_t, g->u[i]), __builtin_bit_cast(uint32_t, g->v[i])), 0};
+  return {hashCombine(object.sampleKey, __builtin_bit_cast(uint32_t, g->u[i]), __builtin_bit_cast(uint32_t, g->v[i])),
+          0};
 }
 
 void lightAlong(void* host, const TmGrid* g, TmConstVec3 L, const float* pdf, int32_t sample, int32_t samples,

@@ -237,7 +237,7 @@ TEST(Coverage, OfStackedPiecesIsThatOfTheirCells) {
       g->object = 0;
       g->pieces.resize(3);
       for (uint32_t p = 0; p < 3; ++p) {
-        g->pieces[p].name = p;
+        g->pieces[p].sampleKey = p;
         g->pieces[p].openEdges = kAllEdges;
       }
       g->allocate(nu, nv, 1, 0);

@@ -51,7 +51,7 @@ using Surface = std::function<vec3(float u, float v, int key)>;
 inline std::shared_ptr<Grid> makeGrid(int object, uint32_t name, int nu, int nv, const Surface& surface, int keys = 1) {
   auto g = std::make_shared<Grid>();
   g->object = object;
-  g->pieces[0].name = name;
+  g->pieces[0].sampleKey = name;
   g->pieces[0].openEdges = kAllEdges;
   g->allocate(nu, nv, keys, 0);
   for (int k = 0; k < g->vertexCount(); ++k) {

@@ -229,7 +229,7 @@ TEST(Resolve, MoreThanSixtyFourSamplesTakeSeveralWords) {
 std::shared_ptr<Grid> oneCell() {
   auto g = std::make_shared<Grid>();
   g->object = 0;
-  g->pieces[0].name = 42;
+  g->pieces[0].sampleKey = 42;
   g->pieces[0].openEdges = kAllEdges;
   g->allocate(1, 1, 1, 2);
   for (int k = 0; k < 4; ++k) {
