@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <unordered_set>
 
@@ -58,7 +59,7 @@ class GatherPass {
     for (phase_ = 0; phase_ < kGatherPhases && !stop_.requested(); ++phase_) {
       std::vector<Site> sites = uncovered();
       if (phase_ == 0) prepareBounces(sites);
-      gatherAt(std::move(sites));
+      gatherSites(std::move(sites));
       returnFreeMemory();  // tiles are unpacked between allocations that stay
       const int stride = strideAfter(phase_);
       if (covered && stride > 1 && !stop_.requested()) covered(stride);
@@ -181,59 +182,64 @@ class GatherPass {
     state_.stats.rays.gather += occluders.raysTraced();
   }
 
-  // Makes the records of a phase, and inserts them when all have been made.
-  void gatherAt(std::vector<Site> sites) {
+  // Makes the records of a phase, and inserts them when all have been made. Records of early phases look for bright
+  // spots, and the pilots among them are made again once these are known.
+  void gatherSites(std::vector<Site> sites) {
     if (sites.empty()) return report(1);
+    std::vector<size_t> all(sites.size());
+    std::iota(all.begin(), all.end(), size_t{0});
     std::vector<IrradianceRecord> records(sites.size());
-    std::vector<BrightFind> finds(phase_ < kPilotPhases ? sites.size() : 0);
-    size_t done = makeRecords(sites, records, finds);
-    size_t lights = 0;
-    for (size_t i = 0; i < finds.size(); ++i)
-      if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
-    finds.resize(lights);
-    if (!finds.empty()) {
-      state_.learnt->spots.learn(finds);
-      finds.clear();
-      done = makeRecords(sites, records, finds);
-    }
+    std::vector<BrightFind> finds;
+    size_t done = gatherRecords(sites, all, records, phase_ < kPilotPhases ? &finds : nullptr,
+                                [this](float share) { report(share); });
+    if (learnFrom(finds, sites)) done = gatherRecords(sites, pilotsAmong(sites), records, nullptr, {});
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);
   }
 
+  /// Learns bright spots from what light records have found. Returns false if there are none. finds: one for each site,
+  /// or none.
+  bool learnFrom(std::vector<BrightFind>& finds, const std::vector<Site>& sites) {
+    size_t lights = 0;
+    for (size_t i = 0; i < finds.size(); ++i)
+      if (isLight(sites[i].cache)) std::swap(finds[lights++], finds[i]);
+    finds.resize(lights);
+    if (!finds.empty()) state_.learnt->spots.learn(finds);
+    return !finds.empty();
+  }
+
   bool sharesRays(size_t cache) const { return state_.caches[cache].key.gather.samples >= kManyRays; }
-  /// Tells whether the record is from the search for bright spots. It could not aim at them, and is to be replaced.
-  bool isPilotRecord(size_t cache) const {
-    return isLight(cache) && (sharesRays(cache) || (phase_ == 0 && !state_.learnt->spots.spots().empty()));
-  }
-
-  /// Returns how many records were made: fewer than there are sites if the pass was stopped. finds: as many as sites,
-  /// or empty when only the records of the search are replaced.
-  size_t makeRecords(const std::vector<Site>& sites, std::vector<IrradianceRecord>& records,
-                     std::vector<BrightFind>& finds) {
-    const bool isFirst = phase_ >= kPilotPhases || !finds.empty();
-    std::vector<size_t> asked;
-    std::vector<GatherPoint> points;
+  /// Returns the sites whose records are from the search for bright spots. They could not aim at them, and are to be
+  /// replaced.
+  std::vector<size_t> pilotsAmong(const std::vector<Site>& sites) const {
+    const bool areAll = phase_ == 0 && !state_.learnt->spots.spots().empty();
+    std::vector<size_t> out;
     for (size_t i = 0; i < sites.size(); ++i)
-      if (isFirst || isPilotRecord(sites[i].cache)) {
-        asked.push_back(i);
-        points.push_back(sites[i].point);
-      }
-    RecordMaking making{!finds.empty(),
-                        [&](size_t k, BrightFind* find) {
-                          const Site& site = sites[asked[k]];
-                          return gatherAt(site, isLight(site.cache) ? find : nullptr);
-                        },
-                        stop_};
-    if (isFirst) making.progress = [this](float share) { report(share); };
-    RecordSlice made;
-    const size_t done = slices_.make(points, making, made);
-    for (size_t k = 0; k < asked.size(); ++k) records[asked[k]] = made.records[k];
-    if (!finds.empty()) finds = std::move(made.finds);  // all sites were asked if there are finds
-    return done < asked.size() ? asked[done] : sites.size();
+      if (isLight(sites[i].cache) && (areAll || sharesRays(sites[i].cache))) out.push_back(i);
+    return out;
   }
 
-  IrradianceRecord gatherAt(const Site& site, BrightFind* find) const {
+  /// Gathers at some of the sites, which `at` numbers in rising order, and sets their `records`. Returns how many of
+  /// the first sites have their records: all, unless the pass was stopped. finds: null, or set to what each record has
+  /// found.
+  size_t gatherRecords(const std::vector<Site>& sites, const std::vector<size_t>& at,
+                       std::vector<IrradianceRecord>& records, std::vector<BrightFind>* finds,
+                       const std::function<void(float)>& progress) {
+    std::vector<GatherPoint> points;
+    for (const size_t i : at) points.push_back(sites[i].point);
+    const auto gatherAt = [&](size_t k, BrightFind* find) {
+      const Site& site = sites[at[k]];
+      return recordAt(site, isLight(site.cache) ? find : nullptr);
+    };
+    RecordSlice made;
+    const size_t done = slices_.make(points, {finds != nullptr, gatherAt, stop_, progress}, made);
+    for (size_t k = 0; k < at.size(); ++k) records[at[k]] = made.records[k];
+    if (finds) *finds = std::move(made.finds);
+    return done < at.size() ? at[done] : sites.size();
+  }
+
+  IrradianceRecord recordAt(const Site& site, BrightFind* find) const {
     GatherSettings settings = state_.caches[site.cache].key.gather;
     GatherPoint point = site.point;
     // Bright spots are searched with other rays than those of the final records: a spot that all of these miss would be
