@@ -48,11 +48,11 @@ struct ByPassing {
 /// Draws places along a ray, in proportion to the inverse square of their distance to a lamp. The lamp is `beside` away
 /// from the ray, and nearest to it at the distance `nearest` from the eye: C. Kulla and M. Fajardo, "Importance
 /// Sampling Techniques for Path Tracing in Participating Media", 2012. Lengths: units of the world.
-struct ByLamp {
+struct ByLight {
   float beside = 0, nearest = 0, from = 0, to = 0;
 
-  ByLamp() = default;
-  ByLamp(float besideRay, float nearestAt, float way)
+  ByLight() = default;
+  ByLight(float besideRay, float nearestAt, float way)
       : beside(std::max(besideRay, 1e-5f * way)),
         nearest(nearestAt),
         from(std::atan(-nearest / beside)),
@@ -70,7 +70,7 @@ class LightAround {
   /// `units`: units of the world in one of current space, along each ray.
   LightAround(const rsl::Batch& b, const rsl::Array& units) : b_(b), units_(units), ambient_(b.ambient()) {}
 
-  rsl::Vec3Array at(const rsl::Vec3Array& Q) const { return *map(b_.g) ? ofPhotons(Q) : ofLamps(Q); }
+  rsl::Vec3Array at(const rsl::Vec3Array& Q) const { return *map(b_.g) ? ofPhotons(Q) : ofLights(Q); }
 
  private:
   rsl::Vec3Array ofPhotons(const rsl::Vec3Array& Q) const {
@@ -83,21 +83,21 @@ class LightAround {
     for (int i : b_) out.set(i, found[i] > 0 ? out[i] / (4 * rsl::kPi) : rsl::Color{});
     return out;
   }
-  rsl::Vec3Array ofLamps(const rsl::Vec3Array& Q) const {
+  rsl::Vec3Array ofLights(const rsl::Vec3Array& Q) const {
     rsl::Vec3Array out(b_.g);
     for (int i : b_) out.set(i, ambient_[i]);
-    TmIlluminance lamp = tmIlluminanceDefaults();
-    for (lamp.P = Q; b_.illuminance(lamp);) add(lamp, out);
+    TmIlluminance sample = tmIlluminanceDefaults();
+    for (sample.P = Q; b_.illuminance(sample);) add(sample, out);
     return out;
   }
-  void add(const TmIlluminance& lamp, rsl::Vec3Array& out) const {
-    const bool isAtInfinity = lamp.L.x == lamp.direction.x;
+  void add(const TmIlluminance& sample, rsl::Vec3Array& out) const {
+    const bool isAtInfinity = sample.L.x == sample.direction.x;
     for (int i : b_) {
-      if (!lamp.lit[i]) continue;
-      const float distance = rsl::length(rsl::get(lamp.L, i)) * units_[i];
+      if (!sample.lit[i]) continue;
+      const float distance = rsl::length(rsl::get(sample.L, i)) * units_[i];
       const float way = isAtInfinity ? lightway(b_.g, i) : std::min(distance, lightway(b_.g, i));
-      const float onwards = rsl::dot(rsl::get(lamp.direction, i), rsl::normalize(b_.I(i)));
-      const rsl::Color arrives = passing(extinction(b_.g, i), way) * rsl::get(lamp.Cl, i);
+      const float onwards = rsl::dot(rsl::get(sample.direction, i), rsl::normalize(b_.I(i)));
+      const rsl::Color arrives = passing(extinction(b_.g, i), way) * rsl::get(sample.Cl, i);
       out.set(i, out[i] + phase(anisotropy(b_.g, i), onwards) * arrives);
     }
   }
@@ -132,13 +132,13 @@ class Places {
   Places(const rsl::Batch& b, const rsl::Array& units, const Place& whole) : b_(b), units_(units), whole_(whole) {
     rsl::Vec3Array middle(b.g);
     for (int i : b) middle.set(i, b.P(i) - 0.5f * b.I(i));
-    TmIlluminance lamp = tmIlluminanceDefaults();
+    TmIlluminance sample = tmIlluminanceDefaults();
     int last = -1;
-    for (lamp.P = middle; lamps_.size() < kMostLamps && b.illuminance(lamp); last = lamp.light)
-      if (lamp.light != last && lamp.L.x != lamp.direction.x) addLamp(lamp);
+    for (sample.P = middle; lights_.size() < kMostLights && b.illuminance(sample); last = sample.light)
+      if (sample.light != last && sample.L.x != sample.direction.x) addLight(sample);
   }
 
-  int kinds() const { return 1 + static_cast<int>(lamps_.size()); }
+  int kinds() const { return 1 + static_cast<int>(lights_.size()); }
   float way(int i) const { return whole_.distance[i]; }
   /// Finds the places of one kind at these shares.
   void at(int kind, const rsl::Array& share, Place& out) const {
@@ -146,35 +146,35 @@ class Places {
       if (kind == 0)
         out.amount[i] = std::min(std::max(passing(i).at(share[i]), 0.0f), whole_.amount[i]);
       else
-        out.distance[i] = std::min(std::max(lamp(kind, i).at(share[i]), 0.0f), way(i));
+        out.distance[i] = std::min(std::max(light(kind, i).at(share[i]), 0.0f), way(i));
     out.find(b_, kind == 0);
   }
   /// Returns the sum of the densities of all kinds over the distance, for each unit of the medium's density there.
   float density(int i, const Place& at) const {
     float sum = 0;
-    for (int kind = 1; kind < kinds(); ++kind) sum += lamp(kind, i).density(at.distance[i]);
+    for (int kind = 1; kind < kinds(); ++kind) sum += light(kind, i).density(at.distance[i]);
     return passing(i).density(at.amount[i]) + sum / at.density[i];
   }
 
  private:
-  static constexpr size_t kMostLamps = 7;
+  static constexpr size_t kMostLights = 7;
 
-  void addLamp(const TmIlluminance& lamp) {
-    std::vector<ByLamp>& of = lamps_.emplace_back(static_cast<size_t>(b_.g->count));
+  void addLight(const TmIlluminance& sample) {
+    std::vector<ByLight>& of = lights_.emplace_back(static_cast<size_t>(b_.g->count));
     for (int i : b_) {
-      const rsl::Vec3 along = rsl::normalize(b_.I(i)), L = rsl::get(lamp.L, i);
+      const rsl::Vec3 along = rsl::normalize(b_.I(i)), L = rsl::get(sample.L, i);
       const float past = rsl::dot(L, along);
       of[static_cast<size_t>(i)] = {rsl::length(L - past * along) * units_[i], 0.5f * way(i) + past * units_[i],
                                     way(i)};
     }
   }
   ByPassing passing(int i) const { return {extinction(b_.g, i), whole_.amount[i]}; }
-  const ByLamp& lamp(int kind, int i) const { return lamps_[static_cast<size_t>(kind - 1)][static_cast<size_t>(i)]; }
+  const ByLight& light(int kind, int i) const { return lights_[static_cast<size_t>(kind - 1)][static_cast<size_t>(i)]; }
 
   const rsl::Batch& b_;
   const rsl::Array& units_;
   const Place& whole_;
-  std::vector<std::vector<ByLamp>> lamps_;  ///< Indexed by kind - 1 and by point.
+  std::vector<std::vector<ByLight>> lights_;  ///< Indexed by kind - 1 and by point.
 };
 
 /// Returns the number of lit places of each ray: one for diffuse rays, which come in hundreds and need little each.
@@ -191,12 +191,12 @@ rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units, const Pla
   const Places places(b, units, whole);
   const int kinds = places.kinds(), each = std::max(1, stepsFor(b) / kinds);
   rsl::Vec3Array sum(b.g), Q(b.g);
-  rsl::Array forPassing(b.g), forLamps(b.g);
+  rsl::Array forPassing(b.g), forLights(b.g);
   Place at(b);
   for (int k = 0; k < each * kinds; ++k) {
     const int kind = k % kinds;
-    b.g->call->stratified(b.g->host, b.g, k / kinds, each, forPassing.data(), forLamps.data());
-    places.at(kind, kind == 0 ? forPassing : forLamps, at);
+    b.g->call->stratified(b.g->host, b.g, k / kinds, each, forPassing.data(), forLights.data());
+    places.at(kind, kind == 0 ? forPassing : forLights, at);
     for (int i : b) Q.set(i, b.P(i) - (1 - at.distance[i] / std::max(places.way(i), 1e-30f)) * b.I(i));
     const rsl::Vec3Array here = light.at(Q);
     for (int i : b) {

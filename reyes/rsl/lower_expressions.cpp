@@ -114,7 +114,7 @@ int32_t Lowering::name(const Expr& e) {
     const auto g = static_cast<Global>(v.global);
     if (!info(g).readableIn(code_.kind))
       messages_.error(e.place, fmt::format("{} shaders have no \"{}\"", compiler::name(code_.kind), e.text), e.length);
-    return code_.kind == ShaderKind::Light ? ofLamp(g) : global(g);
+    return code_.kind == ShaderKind::Light ? ofLight(g) : global(g);
   }
   const auto it = registers_.find(&v);
   return it != registers_.end() ? it->second : variable(v);
@@ -122,11 +122,11 @@ int32_t Lowering::name(const Expr& e) {
 
 // Returns P or N of a light shader: the place of the light and the direction in which it looks. They are a point of the
 // geometry of AreaLightSource, or the origin and the z axis of its space (RISpec 3.2, table 12.2).
-int32_t Lowering::ofLamp(Global g) {
+int32_t Lowering::ofLight(Global g) {
   if (g != Global::P && g != Global::N && g != Global::Ng) return global(g);
   code_.asksPlace |= g == Global::P;
   if (code_.onGeometry) return global(g == Global::P ? g : Global::N);
-  const auto [it, isNew] = lamp_.try_emplace(g, -1);
+  const auto [it, isNew] = ofLight_.try_emplace(g, -1);
   if (!isNew) return it->second;
   const bool position = g == Global::P;
   const int32_t own = constant(Shape::Triple, {0, 0, position ? 0.0f : 1.0f}), current = temporary(Shape::Triple);

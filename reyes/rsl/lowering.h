@@ -77,7 +77,7 @@ class Lowering {
   /// Evaluates the list in order. Values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
   int32_t name(const Expr& e);
-  int32_t ofLamp(Global g);
+  int32_t ofLight(Global g);
   int32_t element(const Expr& e);
   int32_t element(int32_t array, int32_t index);
   int32_t tuple(const Expr& e);
@@ -134,7 +134,7 @@ class Lowering {
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;
   std::map<std::string, int32_t> texts_;
-  std::map<Global, int32_t> globals_, lamp_;
+  std::map<Global, int32_t> globals_, ofLight_;
   struct LoopLabels {
     int32_t leave, next;
   };

@@ -9,36 +9,36 @@
 namespace tomales {
 namespace {
 
-constexpr uint32_t kNoLamp = ~0U;
+constexpr uint32_t kNoLight = ~0U;
 /// A lamp with geometry takes up to so many of its samples on the average: near lamps have all of theirs, far ones one.
-constexpr int kSamplesOfLamp = 2;
+constexpr int kSamplesOfLight = 2;
 /// Hits of gather rays draw this share of what the eye's points do: many of them make one record.
 constexpr int kShareAtHits = 8;
 constexpr int kLeastInBranch = 4;
 
 /// The lamp of each point in one run.
-struct LampOfPoint {
-  uint32_t lamp = kNoLamp;
+struct LightOfPoint {
+  uint32_t light = kNoLight;
   int sample = 0, samples = 1;
   float expected = 1;  ///< Mean number of samples that the point draws of this lamp.
 };
 
 int mostDrawn(const Batch& batch, const BoundLight& light) {
-  const int lamps = shareOfBranch(batch.scene.lightCut, std::min(batch.scene.lightCut, kLeastInBranch), batch.context),
-            here = batch.context.kind == RayKind::Diffuse ? std::max(1, lamps / kShareAtHits) : lamps;
-  return std::min(here * std::min(samplesOf(light, batch), kSamplesOfLamp), kMostLightSamples);
+  const int lights = shareOfBranch(batch.scene.lightCut, std::min(batch.scene.lightCut, kLeastInBranch), batch.context),
+            here = batch.context.kind == RayKind::Diffuse ? std::max(1, lights / kShareAtHits) : lights;
+  return std::min(here * std::min(samplesOf(light, batch), kSamplesOfLight), kMostLightSamples);
 }
 
 TmConstVec3 from(TmConstVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
 TmVec3 from(TmVec3 v, int i) { return {v.x + i, v.y + i, v.z + i}; }
 EmitterPoints from(const EmitterPoints& p, int i) { return {from(p.P, i), from(p.N, i), p.pdf + i, p.meetPdf + i}; }
 
-LightReceiver receiverOf(const Batch& batch, int i, uint32_t lamps) {
-  return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i), lamps};
+LightReceiver receiverOf(const Batch& batch, int i, uint32_t lights) {
+  return {batch.points->position(i), batch.points->inAir() ? vec3(0.0f) : batch.points->facingNormal(i), lights};
 }
 
 /// Draws a lamp of each cluster of each point.
-std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts) {
+std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& some, const LightCuts& cuts) {
   const size_t n = cuts.clusters.size();
   std::vector<uint32_t> index(n), stream(n);
   for (int i = 0; i < batch.points->count(); ++i) {
@@ -55,8 +55,8 @@ std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& lamps, co
     const std::span<const LightCluster> clusters = cuts.at(i);
     const size_t first = cuts.first[static_cast<size_t>(i)];
     if (!clusters.empty())
-      lamps.set->tree.draw(receiverOf(batch, i, lamps.count), clusters, std::span(xi).subspan(first, clusters.size()),
-                           std::span(out).subspan(first, clusters.size()));
+      some.set->tree.draw(receiverOf(batch, i, some.count), clusters, std::span(xi).subspan(first, clusters.size()),
+                          std::span(out).subspan(first, clusters.size()));
   }
   return out;
 }
@@ -64,8 +64,8 @@ std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& lamps, co
 /// Deals out the lamps of all points, run by run.
 class Drawing {
  public:
-  Drawing(const Batch& batch, const LightsOfSet& lamps, const LightCuts& cuts)
-      : cuts_(cuts), drawn_(drawnOf(batch, lamps, cuts)), at_(cuts.first.size() - 1), next_(cuts.first) {
+  Drawing(const Batch& batch, const LightsOfSet& some, const LightCuts& cuts)
+      : cuts_(cuts), drawn_(drawnOf(batch, some, cuts)), at_(cuts.first.size() - 1), next_(cuts.first) {
     for (size_t i = 0; i < at_.size(); ++i) {
       int samples = 0;
       for (const LightCluster& c : cuts.at(static_cast<int>(i))) samples += c.samples;
@@ -74,15 +74,15 @@ class Drawing {
   }
   int runs() const { return runs_; }
 
-  const std::vector<LampOfPoint>& next() {
+  const std::vector<LightOfPoint>& next() {
     for (size_t i = 0; i < at_.size(); ++i) {
-      LampOfPoint& l = at_[i];
-      if (l.lamp != kNoLamp && ++l.sample < l.samples) continue;
-      l.lamp = kNoLamp;
+      LightOfPoint& l = at_[i];
+      if (l.light != kNoLight && ++l.sample < l.samples) continue;
+      l.light = kNoLight;
       if (next_[i] == cuts_.first[i + 1]) continue;
       const DrawnLight& drawn = drawn_[next_[i]];
       const int samples = cuts_.clusters[next_[i]++].samples;
-      l = {drawn.lamp, 0, samples, drawn.probability * static_cast<float>(samples)};
+      l = {drawn.light, 0, samples, drawn.probability * static_cast<float>(samples)};
     }
     return at_;
   }
@@ -90,13 +90,13 @@ class Drawing {
  private:
   const LightCuts& cuts_;
   std::vector<DrawnLight> drawn_;  ///< Of each cluster.
-  std::vector<LampOfPoint> at_;
+  std::vector<LightOfPoint> at_;
   std::vector<uint32_t> next_;  ///< The cluster that each point takes next.
   int runs_ = 0;
 };
 
 /// Returns the parameters of the light, with the numbers of each point's lamp where lamps differ.
-std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps) {
+std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::vector<LightOfPoint>& at) {
   std::vector<TmValue> out = drawn.lights[0]->bound->values;
   std::vector<float*> columns;
   for (const int p : drawn.varying) {
@@ -106,34 +106,34 @@ std::vector<TmValue> paramsOf(Batch& batch, const LightSet& drawn, const std::ve
     value.step = 1;
   }
   for (int i = 0; i < batch.tm.count; ++i) {
-    const uint32_t lamp = lamps[static_cast<size_t>(i) % lamps.size()].lamp;
-    const float* numbers = drawn.numbers.data() + columns.size() * (lamp == kNoLamp ? 0 : lamp);
+    const uint32_t light = at[static_cast<size_t>(i) % at.size()].light;
+    const float* numbers = drawn.numbers.data() + columns.size() * (light == kNoLight ? 0 : light);
     for (float* column : columns) column[i] = *numbers++;
   }
   return out;
 }
 
 /// Returns the vectors to just before the points on the emitters.
-TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, const TmGrid& g) {
+TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<LightOfPoint>& at, const TmGrid& g) {
   const TmVec3 toward = batch.arena.vec3(g.count);
   for (int i = 0; i < g.count; ++i) {
-    const uint32_t lamp = lamps[static_cast<size_t>(i)].lamp;
-    const float reach = lamp == kNoLamp ? 0 : batch.scene.services->emitterReach(drawn.lights[lamp]->index);
+    const uint32_t light = at[static_cast<size_t>(i)].light;
+    const float reach = light == kNoLight ? 0 : batch.scene.services->emitterReach(drawn.lights[light]->index);
     set(toward, i, get(g.L, i) + reach * get(g.Nl, i));
   }
   return toward;
 }
 
 /// Takes the point on its lamp that each point has drawn.
-void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LampOfPoint>& lamps, TmGrid& g,
+void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LightOfPoint>& at, TmGrid& g,
                     const EmitterPoints& points) {
   float *xi0 = batch.arena.floats(g.count), *xi1 = batch.arena.floats(g.count);
   g.xi0 = xi0;
   g.xi1 = xi1;
   for (int i = 0; i < g.count; ++i) {
-    const LampOfPoint& l = lamps[static_cast<size_t>(i)];
+    const LightOfPoint& l = at[static_cast<size_t>(i)];
     if (!g.active[i]) continue;
-    const BoundLight& light = *drawn.lights[l.lamp];
+    const BoundLight& light = *drawn.lights[l.light];
     const vec2 xi = sampleAt(batch, light, i, l.sample, l.samples);
     xi0[i] = xi.x;
     xi1[i] = xi.y;
@@ -153,12 +153,12 @@ const LightCuts& Lights::cutsOf(Batch& batch, const LightsOfSet& some) {
   LightCuts& cuts = it->second;
   if (!isNew) return cuts;
   const BoundLight& light = *set.lights[0];
-  const int most = mostDrawn(batch, light), perLamp = light.can(TM_LIGHT_AREA) ? samplesOf(light, batch) : 1;
+  const int most = mostDrawn(batch, light), perLight = light.can(TM_LIGHT_AREA) ? samplesOf(light, batch) : 1;
   std::vector<LightCluster> cut;
   cuts.first.push_back(0);
   for (int i = 0; i < batch.points->count(); ++i) {
     cut.clear();
-    if (batch.tm.active[i]) set.tree.cut(receiverOf(batch, i, some.count), most, perLamp, cut);
+    if (batch.tm.active[i]) set.tree.cut(receiverOf(batch, i, some.count), most, perLight, cut);
     cuts.clusters.insert(cuts.clusters.end(), cut.begin(), cut.end());
     cuts.first.push_back(static_cast<uint32_t>(cuts.clusters.size()));
   }
@@ -166,17 +166,17 @@ const LightCuts& Lights::cutsOf(Batch& batch, const LightsOfSet& some) {
 }
 
 void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
-  const LightSet& lamps = *some.set;
-  const BoundLight& first = *lamps.lights[0];
+  const LightSet& drawn = *some.set;
+  const BoundLight& first = *drawn.lights[0];
   const bool area = first.can(TM_LIGHT_AREA);
   Drawing drawing(batch, some, cutsOf(batch, some));
   for (int run = 0; run < drawing.runs(); ++run) {
     TmGrid g = lightGrid(batch, first);
-    const std::vector<LampOfPoint>& at = drawing.next();
+    const std::vector<LightOfPoint>& at = drawing.next();
     uint8_t* has = batch.arena.bytes(g.count);
-    for (int i = 0; i < g.count; ++i) has[i] = at[static_cast<size_t>(i)].lamp != kNoLamp;
+    for (int i = 0; i < g.count; ++i) has[i] = at[static_cast<size_t>(i)].light != kNoLight;
     g.active = has;
-    openOutputs(batch, *first.bound, params_.emplace_back(paramsOf(batch, lamps, at)));
+    openOutputs(batch, *first.bound, params_.emplace_back(paramsOf(batch, drawn, at)));
     tell(batch, *first.bound, params_.back());
     g.params = params_.back().data();
     g.sample = 0;
@@ -184,7 +184,7 @@ void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
     EmitterPoints points{};
     if (area) {
       points = emitterPoints(batch, first, g);
-      sampleEmitters(batch, lamps, at, g, points);
+      sampleEmitters(batch, drawn, at, g, points);
     }
     if (!batch.run(*first.bound, g)) return;
     darkenNonFinite(batch, *first.bound, g);
@@ -199,7 +199,7 @@ void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
     sample.pdf = points.meetPdf;
     sample.drawn = true;
     if (first.shadows && batch.scene.services) {
-      if (area) sample.toward = beforeEmitters(batch, lamps, at, g);
+      if (area) sample.toward = beforeEmitters(batch, drawn, at, g);
       sample.pending = has;
     }
     samples_.push_back(sample);
@@ -207,8 +207,8 @@ void Lights::evaluateDrawn(Batch& batch, const LightsOfSet& some) {
 }
 
 void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirections& lobe, TmVec3 Cl) {
-  const LightSet& lamps = *some.set;
-  const BoundLight& first = *lamps.lights[0];
+  const LightSet& drawn = *some.set;
+  const BoundLight& first = *drawn.lights[0];
   const LightCuts& cuts = cutsOf(batch, some);
   const ShadeServices& services = *batch.scene.services;
   const int n = batch.points->count();
@@ -217,8 +217,8 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
   for (int i = 0; i < n; ++i) {
     if (!batch.tm.active[i] || !(lobe.pdf[i] > 0)) continue;
     std::vector<uint32_t>& met = near[static_cast<size_t>(i)];
-    lamps.tree.meet(batch.points->position(i), get(lobe.L, i), met);
-    std::erase_if(met, [&](uint32_t lamp) { return lamp >= some.count; });
+    drawn.tree.meet(batch.points->position(i), get(lobe.L, i), met);
+    std::erase_if(met, [&](uint32_t light) { return light >= some.count; });
     runs = std::max(runs, met.size());
   }
   for (size_t run = 0; run < runs; ++run) {
@@ -227,29 +227,29 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
     g.samples = lobe.samples;
     uint8_t* met = batch.arena.bytes(g.count);
     const EmitterPoints points = emitterPoints(batch, first, g);
-    std::vector<LampOfPoint> at(static_cast<size_t>(n));
+    std::vector<LightOfPoint> at(static_cast<size_t>(n));
     bool any = false;
     for (int i = 0; i < n; ++i) {
       if (near[static_cast<size_t>(i)].size() <= run) continue;
-      const uint32_t lamp = near[static_cast<size_t>(i)][run];
-      services.meetEmitter(lamps.lights[lamp]->index, 1, from(view(g.P), i), from(lobe.L, i), from(points, i));
+      const uint32_t light = near[static_cast<size_t>(i)][run];
+      services.meetEmitter(drawn.lights[light]->index, 1, from(view(g.P), i), from(lobe.L, i), from(points, i));
       if (!(points.pdf[i] > 0)) continue;
       met[i] = 1;
       any = true;
-      at[static_cast<size_t>(i)].lamp = lamp;
+      at[static_cast<size_t>(i)].light = light;
       set(g.L, i, get(g.Pl, i) - get(g.P, i));
-      const float a = points.pdf[i] * lamps.tree.expected(receiverOf(batch, i, some.count), cuts.at(i), lamp),
+      const float a = points.pdf[i] * drawn.tree.expected(receiverOf(batch, i, some.count), cuts.at(i), light),
                   b = static_cast<float>(lobe.samples) * lobe.pdf[i];
       points.pdf[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
     }
     if (!any) continue;
     g.active = met;
-    std::vector<TmValue> params = paramsOf(batch, lamps, at);
+    std::vector<TmValue> params = paramsOf(batch, drawn, at);
     openOutputs(batch, *first.bound, params);
     g.params = params.data();
     if (!batch.run(*first.bound, g)) return;
     // No point meets more lamps than there are, so each run's shadow rays are asked under another light's name.
-    addMet(batch, *lamps.lights[run], g, beforeEmitters(batch, lamps, at, g), points.pdf, lobe, Cl);
+    addMet(batch, *drawn.lights[run], g, beforeEmitters(batch, drawn, at, g), points.pdf, lobe, Cl);
   }
 }
 

@@ -94,16 +94,16 @@ std::vector<float> numbersOf(const std::vector<const BoundLight*>& lights, const
 }
 
 LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* services) {
-  std::vector<TreeLight> lamps;
+  std::vector<TreeLight> inTree;
   float brightest = 0;
   for (const BoundLight* l : lights) {
-    lamps.push_back({boundOf(*l, services), powerOf(*l, services)});
-    brightest = std::max(brightest, lamps.back().power);
+    inTree.push_back({boundOf(*l, services), powerOf(*l, services)});
+    brightest = std::max(brightest, inTree.back().power);
   }
-  for (TreeLight& lamp : lamps) lamp.power = std::max({lamp.power, kDark * brightest, 1e-30f});
+  for (TreeLight& light : inTree) light.power = std::max({light.power, kDark * brightest, 1e-30f});
   std::vector<int> varying = varyingOf(lights);
   std::vector<float> numbers = numbersOf(lights, varying);
-  return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(lamps))};
+  return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(inTree))};
 }
 
 /// Tells whether so many lights are drawn from, and do not all run.

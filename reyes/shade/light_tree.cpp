@@ -38,9 +38,9 @@ struct Places {
 };
 
 /// A lamp is spread evenly over its bound.
-Places placesOf(const TreeLight& lamp) {
-  const glm::dvec3 size(lamp.bound.size());
-  return {double{lamp.power}, glm::dvec3(lamp.bound.center()), size * size / 12.0};
+Places placesOf(const TreeLight& light) {
+  const glm::dvec3 size(light.bound.size());
+  return {double{light.power}, glm::dvec3(light.bound.center()), size * size / 12.0};
 }
 
 Places joined(const Places& a, const Places& b) {
@@ -52,10 +52,10 @@ Places joined(const Places& a, const Places& b) {
 
 }  // namespace
 
-LightTree::LightTree(std::vector<TreeLight> lamps) : lamps_(std::move(lamps)), leafOf_(lamps_.size()) {
-  std::vector<uint32_t> order(lamps_.size());
+LightTree::LightTree(std::vector<TreeLight> lights) : lights_(std::move(lights)), leafOf_(lights_.size()) {
+  std::vector<uint32_t> order(lights_.size());
   std::iota(order.begin(), order.end(), 0U);
-  nodes_.reserve(2 * lamps_.size());
+  nodes_.reserve(2 * lights_.size());
   if (!order.empty()) build(order);
   fillParts();
 }
@@ -66,7 +66,7 @@ void LightTree::fillParts() {
   for (uint32_t n = static_cast<uint32_t>(nodes_.size()); n-- > 0;) {  // from the leaves up
     Node& node = nodes_[n];
     if (node.right == 0) {
-      places[n] = placesOf(lamps_[node.below]);
+      places[n] = placesOf(lights_[node.below]);
       continue;
     }
     places[n] = joined(places[n + 1], places[node.right]);
@@ -94,16 +94,16 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
   Bound3 bound, centers;
   float power = 0;
   for (const uint32_t l : order) {
-    bound.extend(lamps_[l].bound);
-    centers.extend(lamps_[l].bound.center());
-    power += lamps_[l].power;
+    bound.extend(lights_[l].bound);
+    centers.extend(lights_[l].bound.center());
+    power += lights_[l].power;
   }
   nodes_.push_back({bound.center(), 0.5f * glm::length(bound.size()), power, 0, 0, order[0],
                     *std::min_element(order.begin(), order.end())});
   if (order.size() > 1) {
     const vec3 size = centers.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto place = [&](uint32_t l) { return lamps_[l].bound.center()[axis]; };
+    const auto place = [&](uint32_t l) { return lights_[l].bound.center()[axis]; };
     const float half = centers.center()[axis];
     auto middle = std::stable_partition(order.begin(), order.end(), [&](uint32_t l) { return place(l) < half; });
     const auto first = static_cast<size_t>(middle - order.begin()), least = order.size() / kLeastSide + 1;
@@ -131,17 +131,17 @@ float LightTree::atBest(const LightReceiver& at, const Node& node) const {
   return node.power * cosine / std::max({distance2, r * r, kNearest});
 }
 
-void LightTree::cut(const LightReceiver& at, int most, int perLamp, std::vector<LightCluster>& out) const {
+void LightTree::cut(const LightReceiver& at, int most, int perLight, std::vector<LightCluster>& out) const {
   out.clear();
-  if (nodes_.empty() || at.lamps == 0) return;
+  if (nodes_.empty() || at.lights == 0) return;
   thread_local std::vector<Refinable> heap;
   heap.clear();
   float light = 0;
   int samples = 0;
   const auto add = [&](uint32_t node, int n) {
-    if (nodes_[node].first >= at.lamps) return;
+    if (nodes_[node].first >= at.lights) return;
     const float expected = atBest(at, nodes_[node]);
-    const bool whole = nodes_[node].right == 0 && n >= perLamp;
+    const bool whole = nodes_[node].right == 0 && n >= perLight;
     heap.push_back({whole ? 0 : expected / static_cast<float>(n), expected, {node, n}});
     std::push_heap(heap.begin(), heap.end());
     light += expected;
@@ -151,7 +151,7 @@ void LightTree::cut(const LightReceiver& at, int most, int perLamp, std::vector<
   while (heap.front().error > kClusterShare * light) {
     const Refinable worst = heap.front();
     const bool leaf = nodes_[worst.cluster.node].right == 0;
-    const int n = worst.cluster.samples, twice = std::min(2 * n, perLamp);
+    const int n = worst.cluster.samples, twice = std::min(2 * n, perLight);
     if (samples + (leaf ? twice - n : 1) > most) break;
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
@@ -189,10 +189,10 @@ void LightTree::cut(const LightReceiver& at, int most, int perLamp, std::vector<
 
 std::array<float, LightTree::kParts> LightTree::importanceBelow(const LightReceiver& at, const Node& node) const {
   const Parts& all = parts_[node.below];
-  if (at.lamps >= lamps_.size()) return importance(at, all);
+  if (at.lights >= lights_.size()) return importance(at, all);
   Parts lit = all;
   for (size_t k = 0; k < kParts; ++k)
-    if (nodes_[lit.node[k]].first >= at.lamps) lit.power[k] = 0;
+    if (nodes_[lit.node[k]].first >= at.lights) lit.power[k] = 0;
   return importance(at, lit);
 }
 
@@ -228,18 +228,18 @@ void LightTree::draw(const LightReceiver& at, std::span<const LightCluster> clus
   }
 }
 
-float LightTree::expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t lamp) const {
-  const uint32_t leaf = leafOf_[lamp];
+float LightTree::expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t light) const {
+  const uint32_t leaf = leafOf_[light];
   for (const LightCluster& c : cut) {
     uint32_t node = c.node;
     if (leaf < node || leaf >= nodes_[node].end) continue;
     float probability = 1;
     while (nodes_[node].right != 0) {
       const Parts& parts = parts_[nodes_[node].below];
-      const std::array<float, kParts> light = importanceBelow(at, nodes_[node]);
+      const std::array<float, kParts> power = importanceBelow(at, nodes_[node]);
       size_t k = 0;
       while (leaf >= nodes_[parts.node[k]].end) ++k;
-      probability *= light[k] / (light[0] + light[1] + light[2] + light[3]);
+      probability *= power[k] / (power[0] + power[1] + power[2] + power[3]);
       node = parts.node[k];
     }
     return probability * static_cast<float>(c.samples);
@@ -247,13 +247,13 @@ float LightTree::expected(const LightReceiver& at, std::span<const LightCluster>
   return 0;
 }
 
-void LightTree::meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lamps) const {
+void LightTree::meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lights) const {
   for (uint32_t node = 0; node < nodes_.size();) {
     const Node& n = nodes_[node];
     const vec3 to = n.center - P;
     const float along = dot(to, direction), r = 1.0001f * n.radius;
     const bool near = dot(to, to) <= r * r || (along > 0 && dot(to, to) - along * along <= r * r);
-    if (near && n.right == 0) lamps.push_back(n.below);
+    if (near && n.right == 0) lights.push_back(n.below);
     node = near ? node + 1 : n.end;
   }
 }

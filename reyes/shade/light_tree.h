@@ -25,7 +25,7 @@ struct TreeLight {
 /// so that lists of lamps that begin alike share a tree.
 struct LightReceiver {
   vec3 P, N;
-  uint32_t lamps = ~0U;
+  uint32_t lights = ~0U;
 };
 
 /// Lamps of which one is drawn, or one lamp with some samples.
@@ -36,25 +36,25 @@ struct LightCluster {
 
 /// A lamp that has been drawn from a cluster, and with which probability.
 struct DrawnLight {
-  uint32_t lamp;
+  uint32_t light;
   float probability;
 };
 
 class LightTree {
  public:
-  explicit LightTree(std::vector<TreeLight> lamps);
+  explicit LightTree(std::vector<TreeLight> lights);
 
   /// Divides the lamps into clusters. Together these have at most `most` samples, and a cluster of one lamp has at most
   /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
   /// `out` is overwritten. It is empty if no lamp shines there.
-  void cut(const LightReceiver& at, int most, int perLamp, std::vector<LightCluster>& out) const;
+  void cut(const LightReceiver& at, int most, int perLight, std::vector<LightCluster>& out) const;
   /// Draws a lamp of each cluster by a number in [0, 1). Many at once overlap in the processor.
   void draw(const LightReceiver& at, std::span<const LightCluster> clusters, std::span<const float> xi,
             std::span<DrawnLight> out) const;
   /// Returns the expected number of samples that a cut gives to a lamp.
-  float expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t lamp) const;
+  float expected(const LightReceiver& at, std::span<const LightCluster> cut, uint32_t light) const;
   /// Adds the lamps whose bounds a ray from P along the unit direction meets, in the order of the tree.
-  void meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lamps) const;
+  void meet(const vec3& P, const vec3& direction, std::vector<uint32_t>& lights) const;
 
   /// A sample that stands for no more than this share of a point's light shows as no noise, so that finer clusters
   /// would only cost samples.
@@ -87,7 +87,7 @@ class LightTree {
   /// Returns the same of the parts of a node where lamps shine; 0 where none do.
   std::array<float, kParts> importanceBelow(const LightReceiver& at, const Node& node) const;
 
-  std::vector<TreeLight> lamps_;
+  std::vector<TreeLight> lights_;
   std::vector<Node> nodes_;
   std::vector<Parts> parts_;      ///< Of all nodes but leaves.
   std::vector<uint32_t> leafOf_;  ///< The node of each lamp.

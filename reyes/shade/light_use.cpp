@@ -63,32 +63,32 @@ void LightUse::add(const Batch& batch) {
     unlit_.insert(&batch.group);
   }
   for (const int light : batch.lights.alone(batch)) {
-    Lamp& lamp = lamps_[static_cast<size_t>(light)];
-    lamp.asked.store(true, std::memory_order_relaxed);
-    if (batch.scene.light(light).can(TM_LIGHT_AMBIENT)) lamp.comes.store(true, std::memory_order_relaxed);
+    Use& use = uses_[static_cast<size_t>(light)];
+    use.asked.store(true, std::memory_order_relaxed);
+    if (batch.scene.light(light).can(TM_LIGHT_AMBIENT)) use.comes.store(true, std::memory_order_relaxed);
   }
   for (const LightSample& sample : batch.lights.evaluated()) {
     if (sample.drawn) continue;  // few of many lights say nothing of each
-    Lamp& lamp = lamps_[static_cast<size_t>(sample.light->index)];
-    if (!lamp.comes.load(std::memory_order_relaxed)) follow(batch, sample, lamp);
+    Use& use = uses_[static_cast<size_t>(sample.light->index)];
+    if (!use.comes.load(std::memory_order_relaxed)) follow(batch, sample, use);
   }
   countStops(batch);
 }
 
 // Notes the points of a batch to which a lamp sends light. Where a shadow ray has been traced there was light, and a
 // surface that wanted to know of it.
-void LightUse::follow(const Batch& batch, const LightSample& sample, Lamp& lamp) {
+void LightUse::follow(const Batch& batch, const LightSample& sample, Use& use) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];
     if (!sent && !traced) continue;
     const bool faces = sample.pending ? traced : dot(batch.points->facingNormal(i), get(sample.L, i)) > 0;
     // The places of an area light differ, and which of them is seen first depends on threads.
-    if (!lamp.bright.exchange(true) && !sample.rays.solar && !sample.light->can(TM_LIGHT_AREA)) {
+    if (!use.bright.exchange(true) && !sample.rays.solar && !sample.light->can(TM_LIGHT_AREA)) {
       const std::lock_guard lock(mutex_);
       places_[static_cast<size_t>(sample.light->index)] = batch.points->position(i) + get(sample.far, i);
     }
-    if (faces) lamp.faces.store(true, std::memory_order_relaxed);
-    if (faces && sent) return lamp.comes.store(true, std::memory_order_relaxed);
+    if (faces) use.faces.store(true, std::memory_order_relaxed);
+    if (faces && sent) return use.comes.store(true, std::memory_order_relaxed);
   }
 }
 
@@ -112,7 +112,7 @@ void LightUse::countStops(const Batch& batch) {
       }
     for (const float brightness : sum)
       if (brightness >= 1)
-        ++lamps_[static_cast<size_t>(light.index)]
+        ++uses_[static_cast<size_t>(light.index)]
               .stops[static_cast<size_t>(std::min(std::ilogb(brightness), kStops - 1))];
   }
   points_ += counted;
@@ -148,33 +148,33 @@ void LightUse::warnOfDarkness(const BoundScene& scene) const {
                                  named(names), names.size() == 1 ? "asks" : "ask"));
 }
 
-std::string LightUse::whyUseless(const BoundScene& scene, const Lamp& lamp, size_t index) const {
-  if (!lamp.bright) return "its shader sends no light to where surfaces ask for it (intensity, colour, cone, falloff)";
-  std::string out = lamp.faces ? "all that faces it lies in its shadow" : "all that it shines on faces away from it";
+std::string LightUse::whyUseless(const BoundScene& scene, const Use& use, size_t index) const {
+  if (!use.bright) return "its shader sends no light to where surfaces ask for it (intensity, colour, cone, falloff)";
+  std::string out = use.faces ? "all that faces it lies in its shadow" : "all that it shines on faces away from it";
   const auto place = places_.find(index);
   const std::string object = place == places_.end() ? "" : around(scene.scene, place->second);
   return object.empty() ? out : out + fmt::format("; it stands within the bounds of {}", object);
 }
 
 void LightUse::warnOfUseless(const BoundScene& scene) const {
-  for (size_t k = 0; k < lamps_.size(); ++k) {
-    const Lamp& lamp = lamps_[k];
-    if (!lamp.asked || lamp.comes || !scene.lights[k] || !isDirect(*scene.lights[k])) continue;
+  for (size_t k = 0; k < uses_.size(); ++k) {
+    const Use& use = uses_[k];
+    if (!use.asked || use.comes || !scene.lights[k] || !isDirect(*scene.lights[k])) continue;
     const BoundShader& light = *scene.lights[k]->bound;
     scene.log.report(
         Severity::Note, "light-useless", light.where,
-        fmt::format("{} comes to nothing that the camera sees: {}", light.user, whyUseless(scene, lamp, k)));
+        fmt::format("{} comes to nothing that the camera sees: {}", light.user, whyUseless(scene, use, k)));
   }
 }
 
 void LightUse::warnOfGlare(const BoundScene& scene) const {
   if (points_ < kFewLitPoints) return;
   const int gain_stops = static_cast<int>(std::floor(std::log2(std::max(scene.scene.options.exposureGain, 1e-6f))));
-  for (size_t k = 0; k < lamps_.size(); ++k) {
+  for (size_t k = 0; k < uses_.size(); ++k) {
     const double half = kShareOfLitPoints * static_cast<double>(points_);
     int64_t brighter = 0;
     int stop = kStops;
-    while (stop > 0 && static_cast<double>(brighter) <= half) brighter += lamps_[k].stops[static_cast<size_t>(--stop)];
+    while (stop > 0 && static_cast<double>(brighter) <= half) brighter += uses_[k].stops[static_cast<size_t>(--stop)];
     if (static_cast<double>(brighter) <= half || stop + gain_stops < kGlare_stops) continue;
     const BoundShader& light = *scene.lights[k]->bound;
     scene.log.report(Severity::Warning, "light-glare", light.where,

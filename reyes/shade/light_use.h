@@ -22,7 +22,7 @@ struct LightSample;
 class LightUse {
  public:
   /// `lights` is the number of lights of the scene.
-  explicit LightUse(size_t lights) : lamps_(lights) {}
+  explicit LightUse(size_t lights) : uses_(lights) {}
   /// Takes in what a surface shader has asked of its lights at the points of a batch.
   void add(const Batch& batch);
   /// Reports surfaces that ask for light where there is none, lights that come to nothing, and a light that alone makes
@@ -31,7 +31,7 @@ class LightUse {
 
  private:
   static constexpr int kStops = 32;
-  struct Lamp {
+  struct Use {
     std::atomic<bool> asked{false};   ///< Some surface has asked for its light.
     std::atomic<bool> bright{false};  ///< Its shader sends light to some point.
     std::atomic<bool> faces{false};   ///< Some such point faces it.
@@ -39,14 +39,14 @@ class LightUse {
     /// Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
     std::array<std::atomic<int64_t>, kStops> stops{};
   };
-  void follow(const Batch& batch, const LightSample& sample, Lamp& lamp);
+  void follow(const Batch& batch, const LightSample& sample, Use& use);
   void countStops(const Batch& batch);
   void warnOfDarkness(const BoundScene& scene) const;
   void warnOfUseless(const BoundScene& scene) const;
   void warnOfGlare(const BoundScene& scene) const;
-  std::string whyUseless(const BoundScene& scene, const Lamp& lamp, size_t index) const;
+  std::string whyUseless(const BoundScene& scene, const Use& use, size_t index) const;
 
-  std::deque<Lamp> lamps_;
+  std::deque<Use> uses_;
   std::atomic<int64_t> points_{0};  ///< The number of points whose stops were counted.
   mutable std::mutex mutex_;        ///< It guards what follows.
   std::set<const BoundGroup*> unlit_;

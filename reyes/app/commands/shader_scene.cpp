@@ -10,7 +10,7 @@ namespace tomales {
 namespace {
 
 constexpr const char* kSquare = "Patch \"bilinear\" \"P\" [-.5 .5 0  .5 .5 0  -.5 -.5 0  .5 -.5 0]\n";
-constexpr float kLampDistance = 2;  // its distance from the eye, in front of the square and beside the way to it
+constexpr float kLightDistance = 2;  // its distance from the eye, in front of the square and beside the way to it
 
 std::string requestFor(const TmShader& shader, const std::string& parameters) {
   static constexpr const char* kRequests[] = {
@@ -20,7 +20,7 @@ std::string requestFor(const TmShader& shader, const std::string& parameters) {
     return fmt::format(
         "AttributeBegin AreaLightSource \"{}\" \"tested\" {} Translate 0 0 {} {}AttributeEnd\nIlluminate \"tested\" "
         "1\n",
-        shader.name, parameters, kLampDistance, kSquare);
+        shader.name, parameters, kLightDistance, kSquare);
   return fmt::format(fmt::runtime(kRequests[shader.kind]), shader.name, parameters);
 }
 
@@ -43,7 +43,7 @@ class EmptySpace final : public ShadeServices {
   bool sampleEmitter(int, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                      const EmitterPoints& out) const override {
     for (int i = 0; i < count; ++i) {
-      const vec3 P(xi0[i] - 0.5f, xi1[i] - 0.5f, kLampDistance), way = get(from, i) - P;
+      const vec3 P(xi0[i] - 0.5f, xi1[i] - 0.5f, kLightDistance), way = get(from, i) - P;
       const float cosine = glm::normalize(way).z;
       set(out.P, i, P);
       set(out.N, i, vec3(0, 0, 1));

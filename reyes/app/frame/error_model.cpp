@@ -240,7 +240,7 @@ LightQuality ErrorModel::withMoreRays(const LightQuality& given, double most) co
   return out;
 }
 
-LightQuality ErrorModel::bestLamps(const LightQuality& given, double most) const {
+LightQuality ErrorModel::bestLightSamples(const LightQuality& given, double most) const {
   LightQuality out = given;
   if (!(base_.direct > 0) || given.lightSamples <= 0) return out;
   int low = 1, high = kMostLightSamples + 1;  // the most is `low`, or between them

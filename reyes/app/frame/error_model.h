@@ -114,7 +114,7 @@ class ErrorModel {
   /// Returns the same with records as wide as those of `given`.
   LightQuality bestAsWide(const LightQuality& given, double most) const;
   /// Returns the most light samples, with the rays and records of `given`, that cost no more in shading.
-  LightQuality bestLamps(const LightQuality& given, double most) const;
+  LightQuality bestLightSamples(const LightQuality& given, double most) const;
 
  private:
   template <class Better>

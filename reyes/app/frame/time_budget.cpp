@@ -23,12 +23,12 @@ constexpr double kBetter = 0.95;      ///< Another round is worth it if the erro
 constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if it falls to this share.
 /// A round has at most so many times the rays of the one before, which says what they cost.
 constexpr int kMostGrowth = 12;
-constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
-constexpr size_t kBucketsOfProbe = 16;  ///< One bucket of so many tells what more rays cost.
-constexpr int kLampsOfAudit = 16;       ///< Light samples of a picture whose audit takes as long as those of trials.
+constexpr double kShareOfProbe = 0.12;    ///< Share of the time left that a probe may take.
+constexpr size_t kBucketsOfProbe = 16;    ///< One bucket of so many tells what more rays cost.
+constexpr int kLightSamplesOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
 /// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
 /// noise.
-constexpr int kMostCutOfLamps = 4;
+constexpr int kMostCutOfLights = 4;
 constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
 
 class BudgetedFrame {
@@ -63,7 +63,7 @@ class BudgetedFrame {
   double left_s() const {
     // An audit takes many times as many light samples as the picture.
     const double audit_s =
-        settings_.quality.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLampsOfAudit) : 0;
+        settings_.quality.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLightSamplesOfAudit) : 0;
     return kShareToPlan * (settings_.quality.timeBudget_s - job_.elapsed_s() - audit_s);
   }
 
@@ -87,7 +87,7 @@ class BudgetedFrame {
       model.correctGatherCost(quality_, took_s);
       const double left = std::max(0.0, left_s());
       next = bestAfter(quality_, left);
-      const LightQuality stays = model.bestLamps(quality_, left);
+      const LightQuality stays = model.bestLightSamples(quality_, left);
       if (round == kMostRounds || model.cost(next) > left || model.error(next) > kBetter * model.error(stays)) break;
       if (round > 1 || !mayProbe(next, left)) continue;
       learnRays(quality_.samples, next);
@@ -152,7 +152,7 @@ class BudgetedFrame {
   /// Shades the whole frame with few samples, where that tells for little what shading it with more will take.
   void measureShading() {
     const double left = std::max(0.0, left_s());
-    const LightQuality planned = job_.gathers() ? trials_.model.bestLamps(quality_, left) : quality_;
+    const LightQuality planned = job_.gathers() ? trials_.model.bestLightSamples(quality_, left) : quality_;
     LightQuality few = planned;
     if (few.lightSamples > 1) few.lightSamples = std::max(1, few.lightSamples / kFewerInFirst);
     if (!job_.gathers() && few.samples > 1) few.samples = std::max(1, few.samples / kFewerInFirst);
@@ -175,13 +175,13 @@ class BudgetedFrame {
   void spendRest() {
     const double left = std::max(0.0, left_s());
     if (job_.gathers()) {
-      const int fewest = quality_.lightSamples / kMostCutOfLamps;
-      quality_ = trials_.model.bestLamps(quality_, left);
+      const int fewest = quality_.lightSamples / kMostCutOfLights;
+      quality_ = trials_.model.bestLightSamples(quality_, left);
       quality_.lightSamples = std::max(quality_.lightSamples, fewest);
       job_.setLightSamples(quality_.lightSamples);
     } else {
       quality_ = trials_.model.best(left);
-      choose(trials_.model.bestLamps(quality_, left));
+      choose(trials_.model.bestLightSamples(quality_, left));
     }
   }
 

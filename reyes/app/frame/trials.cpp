@@ -19,7 +19,7 @@ namespace {
 /// The quality of trials: the base, one with four times the rays, and one with wider records.
 constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWiderRecords{150, 2, 4};
 constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
-constexpr LightQuality kBaseOfLamps{0, -1, 4}, kFinerLamps{0, -1, 16};
+constexpr LightQuality kBaseOfLights{0, -1, 4}, kFinerLights{0, -1, 16};
 /// One bucket of so many is tried, and no fewer than so many.
 constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
 constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
@@ -79,8 +79,8 @@ class Trials {
 
   TrialsResult run() {
     const bool paths = job_.method().isReference, records = job_.method().caches;
-    const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLamps;
-    const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLamps;
+    const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLights;
+    const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLights;
     AuditSettings auditSettings = light_.auditSettings(settings_.seed);
     auditSettings.lightSamples = finer.lightSamples;
     auditSettings.smudgeSizes = kSmudgeSizesOfTrials;

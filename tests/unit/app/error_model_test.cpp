@@ -72,11 +72,11 @@ TEST(ErrorModel, GivesTheLeastErrorThatSoManyRaysBring) {
 
 TEST(ErrorModel, GivesTheMostLightSamplesForATimeAndLeavesRaysAlone) {
   const ErrorModel model = Frame().model();
-  const LightQuality chosen = model.bestLamps({300, 0.7f, 4}, 400000);
+  const LightQuality chosen = model.bestLightSamples({300, 0.7f, 4}, 400000);
   EXPECT_EQ(chosen.samples, 300);
   EXPECT_EQ(chosen.maxError, 0.7f);
   EXPECT_EQ(chosen.lightSamples, 20);
-  EXPECT_EQ(model.bestLamps({300, 0.7f, 4}, 0).lightSamples, 1);
+  EXPECT_EQ(model.bestLightSamples({300, 0.7f, 4}, 0).lightSamples, 1);
 }
 
 TEST(ErrorModel, FillsATimeWithRays) {
@@ -94,7 +94,7 @@ TEST(ErrorModel, GoesAsFarWhateverRaysTheTrialsHad) {
   for (const ErrorModel& model : {brief, frame.model()}) {
     EXPECT_GT(model.best(1e12).samples, 9000);
     EXPECT_LE(model.best(1e12).samples, 9600);
-    EXPECT_EQ(model.bestLamps({300, 1, 4}, 1e12).lightSamples, 1024);
+    EXPECT_EQ(model.bestLightSamples({300, 1, 4}, 1e12).lightSamples, 1024);
   }
 }
 

@@ -68,7 +68,8 @@ TEST(LightTree, TheFirstLampsAreDrawnAsIfThereWereNoOthers) {
     }
     EXPECT_NEAR(expected, static_cast<double>(cut.size()), 1e-4) << "no draw is lost to other lamps";
     for (const LightCluster& cluster : cut)
-      for (int k = 0; k < 50; ++k) EXPECT_LT(drawn(tree, at, cluster, (static_cast<float>(k) + 0.5f) / 50).lamp, count);
+      for (int k = 0; k < 50; ++k)
+        EXPECT_LT(drawn(tree, at, cluster, (static_cast<float>(k) + 0.5f) / 50).light, count);
   }
   std::vector<LightCluster> none{{0, 1}};
   tree.cut({{3, 1, 2}, {0, 1, 0}, 0}, 20, 1, none);
@@ -210,7 +211,8 @@ TEST(LightTree, LampsThatLieTogetherAreOneCluster) {
     ASSERT_EQ(cut.size(), 2U);
     for (const LightCluster& c : cut) {
       std::set<uint32_t> members;
-      for (int d = 0; d < 2000; ++d) members.insert(drawn(tree, middle, c, (static_cast<float>(d) + 0.5f) / 2000).lamp);
+      for (int d = 0; d < 2000; ++d)
+        members.insert(drawn(tree, middle, c, (static_cast<float>(d) + 0.5f) / 2000).light);
       EXPECT_EQ(members.size(), 20U);
       for (const uint32_t l : members) EXPECT_EQ(l % 2, *members.begin() % 2) << axis;
     }
@@ -233,7 +235,7 @@ TEST(LightTree, ACutEndsWhereNoClusterBringsMoreThanAHalfPercent) {
   int large = 0;
   for (const LightCluster& c : cut) {
     std::set<uint32_t> members;
-    for (int d = 0; d < 500; ++d) members.insert(drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / 500).lamp);
+    for (int d = 0; d < 500; ++d) members.insert(drawn(tree, at, c, (static_cast<float>(d) + 0.5f) / 500).light);
     double sum = 0;
     for (const uint32_t l : members) sum += light[l];
     // The tree knows a cluster by its middle and its radius, so its light is known to a factor.
