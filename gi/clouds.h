@@ -10,7 +10,7 @@
 #include "gi/clouds/diffusion.h"
 #include "gi/clouds/disks.h"
 #include "reyes/base/log.h"
-#include "reyes/shade_services.h"
+#include "reyes/cloud_services.h"
 
 namespace tomales {
 

@@ -8,6 +8,7 @@
 
 namespace tomales {
 
+class CloudServices;
 class ShaderRegistry;
 
 /// Cells of the brightness of a sky's picture, from pole to pole and around: a cell is a third of a degree high, and

@@ -1,7 +1,6 @@
-// The interfaces of shading: how a batch of points is to be shaded, and what it may ask of units that know more than
-// the points (ray tracing, global illumination, point clouds). Light is in the RSL convention, E/pi; colours along rays
-// are radiance. Space: current, except CloudQuery, which has the file's. Results of points that are not active are left
-// alone. Threads: const members may be called concurrently, and so may bake() and lookUp().
+// How a batch of points is to be shaded, and what it may ask of units that know more than the points: ray tracing and
+// global illumination. Light is in the RSL convention, E/pi; colours along rays are radiance. Space: current. Results
+// of points that are not active are left alone. Threads: const members may be called concurrently.
 #pragma once
 #include <optional>
 #include <span>
@@ -277,46 +276,6 @@ class ShadeServices {
   /// Gives the radiance that other surfaces send to each point along a unit direction, `way.number` of `way.count`.
   virtual void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                              const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const;
-};
-
-/// A lookup of bake3d() or texture3d() in data that shaders keep. Arrays have one length, in the space of the file.
-struct CloudQuery {
-  std::string file;
-  int count = 0;
-  const uint8_t* active = nullptr;
-  TmConstVec3 P{}, N{};  ///< N has unit length or is zero.
-  const float* radius = nullptr;
-};
-struct CloudValue {
-  std::string name;
-  int floats = 1;
-  float* c[3] = {nullptr, nullptr, nullptr};
-};
-
-/// The disks of a point cloud that cover a hemisphere.
-struct DisksQuery {
-  std::string channel;          ///< The channel that the disks send.
-  float maxSolidAngle = 0.01f;  ///< Disks that are seen together under less count as one.
-  bool clamp = true;            ///< Disks behind others do not count.
-  float coneAngle = kPi / 2;    ///< The half angle of the cone that is looked at.
-  HemisphereQuery falloff;
-};
-
-/// The interface to point clouds and brick maps (implemented in gi/clouds, injected by reyes/app). `problem` says why
-/// false is returned.
-class CloudServices {
- public:
-  virtual ~CloudServices() = default;
-  virtual bool bake(const CloudQuery&, const std::vector<CloudValue>&, std::string& problem) = 0;
-  virtual bool lookUp(const CloudQuery&, const std::vector<CloudValue>&, float* found, std::string& problem) = 0;
-  /// Gives E/pi from a photon map.
-  virtual bool photons(const CloudQuery&, const TmPhotonOptions&, TmVec3 E, std::string& problem) = 0;
-  /// Gives the share of the hemisphere around N that is covered, weighted by the cosine, and (unless x is null) the
-  /// mean radiance that arrives from it. `coarse` is the share where disks are too large for a point that is so near.
-  virtual bool occlusion(const CloudQuery&, const DisksQuery&, float* covered, TmVec3 radiance, float* coarse,
-                         std::string& problem) = 0;
-  /// Gives baked light that leaves after diffusion, as E/pi.
-  virtual bool subsurface(const CloudQuery&, const TmSubsurfaceOptions&, TmVec3 out, std::string& problem) = 0;
 };
 
 }  // namespace tomales

@@ -5,7 +5,7 @@
 // on threads.
 #pragma once
 #include "gi/point_cloud.h"
-#include "reyes/shade_services.h"
+#include "reyes/cloud_services.h"
 
 namespace tomales {
 

@@ -1,5 +1,6 @@
 // The disks of a point cloud for shaders: converts from current space to that of the file and back.
 #pragma once
+#include "reyes/cloud_services.h"
 #include "reyes/shade/batch.h"
 
 namespace tomales {

@@ -1,4 +1,5 @@
 // bake3d() and texture3d() between shaders and what keeps the points: spaces, radii, masks, and what is baked once.
+#include "reyes/cloud_services.h"
 #include "reyes/sl.h"
 #include "tests/unit/shade/stage.h"
 
