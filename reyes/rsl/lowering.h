@@ -36,7 +36,7 @@ class Lowering {
   Block block(const Body& body);
   Shape shape(int32_t reg) const { return code_.registers[static_cast<size_t>(reg)].shape; }
 
-  // --- lower_shader.cpp: parameters, statements
+  // --- lower_shader.cpp: parameters
   void parameter(const Variable& v);
   void beginColor();
   void hideUncoloured();
@@ -46,6 +46,8 @@ class Lowering {
   void computedDefault(const Variable& v, int32_t reg);
   /// Returns a register that is 1 where the value is the mark of a default that the shader computes.
   int32_t isMissing(int32_t reg);
+
+  // --- lower_statements.cpp
   void statement(const Stmt& s);
   void declaration(const Variable& v);
   void initialiseArray(const Variable& v, int32_t reg);
@@ -98,6 +100,8 @@ class Lowering {
   // Both return the register of the function's value, or -1 if it has none.
   int32_t inlineStraight(const Function& f);  ///< Pre: it returns at its very end alone, so that no label is needed.
   int32_t inlineWithReturns(const Function& f);
+
+  // --- lower_builtins.cpp
   int32_t builtin(const Expr& e, const Builtin& b);
   std::vector<int32_t> arguments(const Expr& e, const Builtin& b, size_t count);
   std::vector<Setting> settings(const std::vector<ExprPtr>& list, size_t from, std::string_view function,
