@@ -19,7 +19,7 @@ using Progress = std::function<void(float fraction)>;
 
 struct FrameControl {
   Progress progress;
-  StopToken stop{};  ///< Running buckets are given up, and the pass returns.
+  StopToken stop{};  ///< Once it asks, running buckets are given up, and the pass returns.
   uint32_t seed = 0;
   PluginTrust trust{};  ///< Decides where display drivers may be loaded from.
 };

@@ -133,8 +133,11 @@ void field(A& a, std::vector<T, Allocator>& x) {
         if (n > a.bytes.size() / sizeof(T)) return void(a.damaged = true);
       x.resize(n);
       a.raw(x.data(), n * sizeof(T));
+    } else if constexpr (kUnpacks<A>) {
+      // A forged number of elements takes no memory before their bytes are there.
+      x.clear();
+      for (size_t i = 0; i < n && !a.damaged; ++i) field(a, x.emplace_back());
     } else {
-      x.resize(n);
       for (T& element : x) field(a, element);
     }
   }

@@ -1,5 +1,5 @@
-// The wish that work ends soon, because nobody wants its result any more. Work that takes long looks at it about every
-// tenth of a second. SIGTERM makes the wish for the whole process (reyes/app/watch/interrupt.h). Threads: any.
+// The wish that work ends soon. Work that takes long looks at it about every tenth of a second. SIGTERM makes the wish
+// for the whole process (reyes/app/watch/interrupt.h). Threads: any.
 #pragma once
 #include <atomic>
 
@@ -11,7 +11,9 @@ class StopToken {
   StopToken() = default;
   /// Whoever owns the flag sets it to have the work end. It must outlive the token.
   StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
-  bool requested() const { return flag_ && flag_->load(std::memory_order_relaxed); }
+  StopToken(const std::atomic<bool>&&) = delete;
+  /// What was written before the flag was set can be read once this is true.
+  bool requested() const { return flag_ && flag_->load(std::memory_order_acquire); }
 
  private:
   const std::atomic<bool>* flag_ = nullptr;

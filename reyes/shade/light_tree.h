@@ -45,7 +45,7 @@ class LightTree {
   explicit LightTree(std::vector<TreeLight> lights);
 
   /// Divides the lamps into clusters. Together these have at most `most` samples, and a cluster of one lamp has at most
-  /// `perLamp`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
+  /// `perLight`. Dividing ends earlier if no sample stands for more than kClusterShare of the light that is expected.
   /// `out` is overwritten. It is empty if no lamp shines there.
   void cut(const LightReceiver& at, int most, int perLight, std::vector<LightCluster>& out) const;
   /// Draws a lamp of each cluster by a number in [0, 1). Many at once overlap in the processor.

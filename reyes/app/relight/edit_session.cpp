@@ -120,6 +120,7 @@ Json EditSession::status() const {
   }
   for (const PixelRect& r : gathered_) gathered.push_back(Json::array({r.x0, r.y0, r.x1, r.y1}));
   return {{"present", jsonOf(layers_.present())},
+          {"imager", !layers_.present().shaders[kImagers].empty()},
           {"layers", layers},
           {"variable",
            {{"name", layers_.variable()},
@@ -137,7 +138,7 @@ void EditSession::ifShown(size_t layer, const std::function<void()>& use) const 
   if (!layers_[layer].parts.areOld()) use();
 }
 
-std::optional<Step> EditSession::begin() {
+std::optional<WorkStep> EditSession::begin() {
   const std::lock_guard lock(mutex_);
   timesSeen_ = timesAsked_;
   if (ended_) return std::nullopt;
@@ -148,16 +149,16 @@ std::optional<Step> EditSession::begin() {
 
 bool EditSession::finish() {
   const std::lock_guard lock(mutex_);
-  const Step step = *running_;
+  const WorkStep step = *running_;
   running_.reset();
   if (stop_) return false;
   order_.finish(step, layers_);
-  return step.kind == Step::Part && !layers_[step.layer].parts.areOld();
+  return step.kind == WorkStep::Part && !layers_[step.layer].parts.areOld();
 }
 
 void EditSession::wait() {
   std::unique_lock lock(mutex_);
-  asked_.wait(lock, [&] { return timesAsked_ != timesSeen_; });
+  asked_.wait(lock, [&] { return ended_ || timesAsked_ != timesSeen_; });
 }
 
 bool EditSession::isRehearsed() const {
@@ -165,7 +166,7 @@ bool EditSession::isRehearsed() const {
   return order_.isRehearsed;
 }
 
-Layer EditSession::layer(size_t layer) const {
+RelitLayer EditSession::layer(size_t layer) const {
   const std::lock_guard lock(mutex_);
   return layers_[layer];
 }
@@ -192,7 +193,7 @@ void EditSession::takeGathered(const std::string& file, const PixelRect& p) {
   const std::lock_guard lock(mutex_);
   gatheredFile_ = file;
   gathered_.push_back({p.x0 - window.x0, p.y0 - window.y0, p.x1 - window.x0, p.y1 - window.y0});
-  for (Layer& layer : layers_) layer.parts.forgetAll();
+  for (RelitLayer& layer : layers_) layer.parts.forgetAll();
 }
 
 void EditSession::end() {

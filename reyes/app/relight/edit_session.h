@@ -27,22 +27,23 @@ class EditSession {
   std::string gatheredFile() const;
   /// Returns the layers but the last, by name and lights.
   Json layers() const;
+  /// Its "imager" tells whether the present edit changes an imager.
   Json status() const;
   /// Calls `use`, with no edit meanwhile, if all parts of the layer show the present edit.
   void ifShown(size_t layer, const std::function<void()>& use) const;
 
   // For the thread that shades.
   /// Returns the next step, which runs until finish(); nothing if all is done, or after end().
-  std::optional<Step> begin();
+  std::optional<WorkStep> begin();
   /// Ends the running step, which is done unless it was stopped. Returns true if its layer has no old parts any more.
   bool finish();
-  /// Waits, after begin() has returned nothing, until a page has asked for something.
+  /// Waits, after begin() has returned nothing, until a page has asked for something or end() is called.
   void wait();
   /// Asks for a stop once the running step is of no use any more.
   StopToken stop() const { return stop_; }
   bool isRehearsed() const;
   size_t layerCount() const { return layers_.count(); }
-  Layer layer(size_t layer) const;
+  RelitLayer layer(size_t layer) const;
   /// Sets the names of lights and objects whose bounced light is of another edit.
   void setStale(std::vector<std::string> names);
   /// Sets the names of objects whose light does not add up, unless the running step was stopped.
@@ -64,7 +65,7 @@ class EditSession {
   mutable std::mutex mutex_;  ///< Guards what follows.
   EditedLayers layers_;
   WorkOrder order_;
-  std::optional<Step> running_;
+  std::optional<WorkStep> running_;
   std::atomic<bool> stop_{false};  ///< Set with the lock.
   std::vector<std::string> stale_, notLinear_;
   std::vector<PixelRect> gathered_;  ///< From the window's corner.

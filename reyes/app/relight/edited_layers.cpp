@@ -4,7 +4,7 @@ namespace tomales {
 namespace {
 
 /// Tells whether the page mixes the layer by the factor of this light. Lights of one layer may each have another.
-bool isMixed(const Layer& layer, const std::string& handle) {
+bool isMixed(const RelitLayer& layer, const std::string& handle) {
   return layer.handles.size() == 1 && layer.handles.front() == handle;
 }
 
@@ -25,9 +25,9 @@ bool sharesBounces(const ShotJob& job) {
          (mode == GiMode::Gather && job.job().gathers() && !job.shareGroups().empty());
 }
 
-std::vector<Layer> layersOf(const ShotJob& job, size_t parts) {
+std::vector<RelitLayer> layersOf(const ShotJob& job, size_t parts) {
   const bool shares = sharesBounces(job);
-  std::vector<Layer> out{{"everything", std::nullopt}, {"glow", "", shares}};
+  std::vector<RelitLayer> out{{"everything", std::nullopt}, {"glow", "", shares}};
   std::map<std::string, std::vector<std::string>> groups;
   for (const auto& light : job.shot().scene.lights)
     if (const std::string group = job.job().shading().light(light->index).group(); !group.empty())
@@ -35,11 +35,11 @@ std::vector<Layer> layersOf(const ShotJob& job, size_t parts) {
   for (const auto& [name, handles] : groups) out.push_back({name, name, shares, handles});
   if (!shares) out.push_back({"bounced light", "", true});
   out.push_back({"variable", std::nullopt});
-  for (Layer& layer : out) layer.parts = LayerParts(parts);
+  for (RelitLayer& layer : out) layer.parts = LayerParts(parts);
   return out;
 }
 
-EditedLayers::EditedLayers(std::vector<Layer> layers, const Editable& editable, EditState present)
+EditedLayers::EditedLayers(std::vector<RelitLayer> layers, const Editable& editable, EditState present)
     : layers_(std::move(layers)), editable_(editable), present_(std::move(present)) {
   wantPresent();
 }
@@ -61,7 +61,7 @@ EditState EditedLayers::editFor(size_t layer) const {
   EditState out = present_;
   out.exposure.reset();
   out.shaders[kImagers].clear();
-  for (const Layer& each : layers_)
+  for (const RelitLayer& each : layers_)
     for (const std::string& handle : each.handles) {
       if (!isMixed(each, handle)) continue;
       ShaderEdit& edit = out.shaders[kLights][handle];
@@ -91,7 +91,7 @@ std::string EditedLayers::textFor(size_t layer) const {
   EditState edit = editFor(layer);
   if (layers_[layer].lights) {
     const auto belongsElsewhere = [&](const auto& ofLight) {
-      const auto has = [&](const Layer& l) { return std::ranges::count(l.handles, ofLight.first) > 0; };
+      const auto has = [&](const RelitLayer& l) { return std::ranges::count(l.handles, ofLight.first) > 0; };
       return !has(layers_[layer]) && std::ranges::any_of(layers_, has);
     };
     std::erase_if(edit.shaders[kLights], belongsElsewhere);

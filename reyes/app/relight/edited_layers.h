@@ -10,7 +10,7 @@ namespace tomales {
 /// Numbers of layers: the whole picture, what shines by itself, and the first of the lights. The last is a variable.
 constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 
-struct Layer {
+struct RelitLayer {
   std::string name;
   std::optional<std::string> lights;  ///< The group whose light it is, empty for none; not given: all.
   bool indirect = true;
@@ -21,17 +21,17 @@ struct Layer {
 
 /// Tells whether it is known which light has bounced.
 bool sharesBounces(const ShotJob& job);
-std::vector<Layer> layersOf(const ShotJob& job, size_t parts);
+std::vector<RelitLayer> layersOf(const ShotJob& job, size_t parts);
 
 class EditedLayers {
  public:
   /// `editable` must outlive it.
-  EditedLayers(std::vector<Layer> layers, const Editable& editable, EditState present);
+  EditedLayers(std::vector<RelitLayer> layers, const Editable& editable, EditState present);
 
   size_t count() const { return layers_.size(); }
   size_t variableLayer() const { return layers_.size() - 1; }
-  const Layer& operator[](size_t layer) const { return layers_[layer]; }
-  Layer& operator[](size_t layer) { return layers_[layer]; }
+  const RelitLayer& operator[](size_t layer) const { return layers_[layer]; }
+  RelitLayer& operator[](size_t layer) { return layers_[layer]; }
   auto begin() { return layers_.begin(); }
   auto end() { return layers_.end(); }
 
@@ -50,7 +50,7 @@ class EditedLayers {
   std::string textFor(size_t layer) const;
   void wantPresent();
 
-  std::vector<Layer> layers_;
+  std::vector<RelitLayer> layers_;
   const Editable& editable_;
   EditState present_;
   std::string variable_;

@@ -43,7 +43,7 @@ std::vector<float> LayerPictures::finished() const {
   return finished_;
 }
 
-void LayerPictures::take(const Step& step, const Image& rows, const ShotJob& job) {
+void LayerPictures::take(const WorkStep& step, const Image& rows, const ShotJob& job) {
   const PixelRect part{rows.originX, rows.originY, rows.originX + rows.width, rows.originY + rows.height};
   const bool isVariable = step.layer == variableLayer_;
   Image finished = rows;

@@ -22,7 +22,7 @@ class LayerPictures {
   std::vector<float> finished() const;
 
   /// Takes rows of a step's part.
-  void take(const Step& step, const Image& rows, const ShotJob& job);
+  void take(const WorkStep& step, const Image& rows, const ShotJob& job);
   /// Subtracts what shines by itself from a coarse layer. Coarse colours of kGlow are taken for that.
   void subtractGlow(size_t layer, std::vector<vec3>& colors);
   void putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t version) { store_.putCoarse(layer, rgb, version); }

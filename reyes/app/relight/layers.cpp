@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr float kLargestHalf = 65504;
-constexpr std::chrono::seconds kPatience{4};
+constexpr std::chrono::seconds kNewsWait{4};
 
 uint16_t halfOf(float x) {
   return glm::packHalf1x16(std::isnan(x) ? 0.0f : std::clamp(x, -kLargestHalf, kLargestHalf));
@@ -150,7 +150,7 @@ uint64_t LayerStore::newest() const {
 
 void LayerStore::wait(uint64_t after, uint64_t told) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, kPatience,
+  changed_.wait_for(lock, kNewsWait,
                     [&] { return woken_ > told || (!blocks_.empty() && blocks_.back().serial > after); });
 }
 

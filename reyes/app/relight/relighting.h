@@ -67,15 +67,15 @@ class Relighting {
 
   // These belong to the thread that shades.
   void work();
-  void run(const Step& step);
-  void shadePart(const Step& step);
-  void shadeCoarse(const Step& step);
-  void rehearse(const Step& step);
-  void gather(const Step& step);
-  void checkLinearity(const Step& step);
+  void run(const WorkStep& step);
+  void shadePart(const WorkStep& step);
+  void shadeCoarse(const WorkStep& step);
+  void rehearse(const WorkStep& step);
+  void gather(const WorkStep& step);
+  void checkLinearity(const WorkStep& step);
   ShotJob& jobFor(const EditState& edit, const std::string& variable = "");
   ShownTiles plainTiles();
-  ShownTiles tilesOf(const Step& step, const Layer& layer);
+  ShownTiles tilesOf(const WorkStep& step, const RelitLayer& layer);
 
   const std::string file_;  ///< The shot's, for pages.
   Log& log_;

@@ -80,15 +80,14 @@ Json Relighting::offeredShader(const std::string& kind, const std::string& name)
 }
 
 Json Relighting::status() const {
-  const WorkStatus::Now now = status_.now();  // before the layers, so that they are done if nothing is being done
+  const WorkStatus::Now now = status_.now();
   Json out = session_->status();
   out["doing"] = now.doing;
   out["done"] = now.done;
   Json& messages = out["messages"] = Json::array();
   for (const LogEntry& e : log_.entries())
     if (e.severity >= Severity::Warning) messages.push_back(e.message);
-  out["imager"] =
-      shot_.files()->dfb().shot().scene.options.imager.has_value() || !session_->present().shaders[kImagers].empty();
+  if (shot_.files()->dfb().shot().scene.options.imager) out["imager"] = true;
   out["bytes"] = layers().bytes();
   return out;
 }

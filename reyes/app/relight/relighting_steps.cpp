@@ -12,7 +12,7 @@ constexpr size_t kPartsPerCheck = 4;  ///< One part of so many is compared with 
 
 void Relighting::work() {
   while (!session_->hasEnded()) {
-    const std::optional<Step> step = session_->begin();
+    const std::optional<WorkStep> step = session_->begin();
     if (!step) {
       status_.tell("");
       layers().wake();
@@ -31,24 +31,24 @@ void Relighting::work() {
   }
 }
 
-void Relighting::run(const Step& step) {
+void Relighting::run(const WorkStep& step) {
   switch (step.kind) {
-    case Step::Part:
+    case WorkStep::Part:
       return shadePart(step);
-    case Step::Coarse:
+    case WorkStep::Coarse:
       return shadeCoarse(step);
-    case Step::Gather:
+    case WorkStep::Gather:
       return gather(step);
-    case Step::Check:
+    case WorkStep::Check:
       return checkLinearity(step);
-    case Step::Rehearse:
+    case WorkStep::Rehearse:
       return rehearse(step);
   }
 }
 
 ShotJob& Relighting::jobFor(const EditState& edit, const std::string& variable) {
   ShotJob& job = shot_.jobFor(edit, variable);
-  session_->setStale(job.staleLight());
+  session_->setStale(shot_.staleLight());
   return job;
 }
 
@@ -62,7 +62,7 @@ ShownTiles Relighting::plainTiles() {
 }
 
 /// Tiles that other parts of the layer will need are shared. Those of the first picture leave points for coarse ones.
-ShownTiles Relighting::tilesOf(const Step& step, const Layer& layer) {
+ShownTiles Relighting::tilesOf(const WorkStep& step, const RelitLayer& layer) {
   const bool leavesPoints = !session_->isRehearsed();
   const auto load = [this, &step, leavesPoints](size_t bucket, DeepTile& tile) {
     if (shared_->load(step.layer, bucket, tile)) return true;
@@ -80,9 +80,9 @@ ShownTiles Relighting::tilesOf(const Step& step, const Layer& layer) {
   return {load, done};
 }
 
-void Relighting::shadePart(const Step& step) {
+void Relighting::shadePart(const WorkStep& step) {
   ShotJob& job = jobFor(step.edit, step.variable);
-  const Layer layer = session_->layer(step.layer);
+  const RelitLayer layer = session_->layer(step.layer);
   status_.tell(layer.name, 1 - static_cast<float>(layer.parts.old()) / static_cast<float>(parts_->count()));
   const PixelRect& part = (*parts_)[step.part];
   if (part.width() <= 0 || part.height() <= 0) return;
@@ -93,9 +93,9 @@ void Relighting::shadePart(const Step& step) {
   job.show(part, tilesOf(step, layer), take, session_->stop());
 }
 
-void Relighting::shadeCoarse(const Step& step) {
+void Relighting::shadeCoarse(const WorkStep& step) {
   ShotJob& job = jobFor(step.edit);
-  const Layer layer = session_->layer(step.layer);
+  const RelitLayer layer = session_->layer(step.layer);
   status_.tell(layer.name + ", coarse");
   job.choose(&*layer.lights, layer.indirect);
   std::vector<vec3> colors = sketch_->shade(job);
@@ -104,18 +104,19 @@ void Relighting::shadeCoarse(const Step& step) {
 }
 
 // Rays of the coarse picture are traced once while nobody waits for it, and what they may meet is read.
-void Relighting::rehearse(const Step& step) {
+void Relighting::rehearse(const WorkStep& step) {
   ShotJob& job = jobFor(step.edit);
   status_.tell("preparing for edits", 0);
   for (size_t i = kGlow; i + 1 < session_->layerCount() && !session_->stop().requested(); ++i) {
-    const Layer layer = session_->layer(i);
+    const RelitLayer layer = session_->layer(i);
     job.choose(&*layer.lights, layer.indirect);
     std::vector<vec3> colors = sketch_->shade(job);
     pictures_->subtractGlow(i, colors);
   }
+  job.choose(nullptr, true);  // the name that it was given ends here
 }
 
-void Relighting::gather(const Step& step) {
+void Relighting::gather(const WorkStep& step) {
   const std::string file = shot_.gather(step.edit, step.pixels);
   sketch_->forgetRays();
   if (file.empty()) return;
@@ -124,7 +125,7 @@ void Relighting::gather(const Step& step) {
 }
 
 // Shades some parts under other gains and compares them with the mixed layers.
-void Relighting::checkLinearity(const Step& step) {
+void Relighting::checkLinearity(const WorkStep& step) {
   status_.tell("checking that light adds up", 0);
   LayerSum sum(step.edit, *session_, layers(), shot_);
   ShotJob& job = jobFor(sum.edit());

@@ -92,6 +92,7 @@ ShotJob& RelitShot::jobFor(const EditState& edit, const std::string& variable) {
   job_ = ShotJob::open(files_, settings, stats_, log_);
   if (!job_) throw std::runtime_error("the edit cannot be applied");
   job_->prepareToShow(variable);
+  staleLight_ = job_->staleLight();
   textOfJob_ = text;
   return *job_;
 }

@@ -12,8 +12,8 @@ class RelitShot {
  public:
   RelitShot(const RenderSettings& settings, Stats& stats, Log& log);
 
-  /// Gathers its light, without --irradiance, and opens it. Returns a job to look at, which has to end before the next
-  /// one begins; null if a file cannot be read, which is reported, or if it was interrupted.
+  /// Gathers its light, without --irradiance, and opens it. Returns a job to look at, which has to end before jobFor()
+  /// or gather() makes another; null if a file cannot be read, which is reported, or if it was interrupted.
   std::unique_ptr<ShotJob> open();
   /// Returns the edit of the command line, so that it is part of what a page saves.
   EditState takeGivenEdit();
@@ -24,6 +24,8 @@ class RelitShot {
   /// Returns the job that shades the shot under this edit. It shows the picture, and the variable if one is named. The
   /// next call of this or of gather() ends it. Throws if the edit cannot be applied.
   ShotJob& jobFor(const EditState& edit, const std::string& variable = "");
+  /// Returns the names of lights and objects whose bounced light is of another edit than that of the job.
+  const std::vector<std::string>& staleLight() const { return staleLight_; }
   /// Makes the records of these pixels anew under an edit, as `tomales gather --crop` does. Returns the file of the
   /// records that the shot is lit by now; empty if none were made.
   std::string gather(const EditState& edit, const PixelRect& pixels);
@@ -44,6 +46,7 @@ class RelitShot {
   std::unique_ptr<TileStore> tiles_;
   std::unique_ptr<ShotJob> job_;
   std::string textOfJob_;  ///< The edit of job_, and its variable.
+  std::vector<std::string> staleLight_;
   std::unique_ptr<Editable> editable_;
   int gatherings_ = 0;
 };

@@ -8,7 +8,7 @@ int64_t squaredDistance(const PixelRect& part, const ivec2& from) {
   return dx * dx + dy * dy;
 }
 
-Step stepFor(Step::Kind kind, const EditedLayers& layers, size_t layer, size_t part = 0) {
+WorkStep stepFor(WorkStep::Kind kind, const EditedLayers& layers, size_t layer, size_t part = 0) {
   return {kind,
           layer,
           part,
@@ -22,8 +22,8 @@ Step stepFor(Step::Kind kind, const EditedLayers& layers, size_t layer, size_t p
 
 // Returns the old part that is nearest to the pointer. Of several layers there it takes the earliest, because the light
 // of what shines by itself is subtracted from the other layers.
-std::optional<Step> WorkOrder::nextPart(size_t from, size_t to, const EditedLayers& layers,
-                                        const PictureParts& parts) const {
+std::optional<WorkStep> WorkOrder::nextPart(size_t from, size_t to, const EditedLayers& layers,
+                                            const PictureParts& parts) const {
   std::optional<std::pair<size_t, size_t>> best;
   int64_t least = std::numeric_limits<int64_t>::max();
   for (size_t layer = from; layer < to; ++layer)
@@ -35,48 +35,48 @@ std::optional<Step> WorkOrder::nextPart(size_t from, size_t to, const EditedLaye
       best = {layer, part};
     }
   if (!best) return std::nullopt;
-  return stepFor(Step::Part, layers, best->first, best->second);
+  return stepFor(WorkStep::Part, layers, best->first, best->second);
 }
 
 // First of all comes the whole picture, and after an edit when the page asks for it; then what is shown instead; then
 // all layers coarse, if they were shaded before.
-std::optional<Step> WorkOrder::next(const EditedLayers& layers, const PictureParts& parts) const {
+std::optional<WorkStep> WorkOrder::next(const EditedLayers& layers, const PictureParts& parts) const {
   const size_t last = layers.variableLayer();
-  if (toGather) return Step{Step::Gather, 0, 0, 0, layers.present(), "", *toGather};
+  if (toGather) return WorkStep{WorkStep::Gather, 0, 0, 0, layers.present(), "", *toGather};
   if (wantsWhole)
     if (auto step = nextPart(kWhole, kGlow, layers, parts)) return step;
   if (!layers.variable().empty())
     if (auto step = nextPart(last, last + 1, layers, parts)) return step;
   for (size_t layer = kGlow; layer < last && isRehearsed; ++layer)
     if (layers[layer].parts.areOld() && layers[layer].coarse != layers[layer].parts.wanted())
-      return stepFor(Step::Coarse, layers, layer);
+      return stepFor(WorkStep::Coarse, layers, layer);
   if (auto step = nextPart(kGlow, last, layers, parts)) return step;
-  if (!isChecked && !only) return Step{Step::Check, 0, 0, 0, layers.editFor(kGlow), "", {}};
-  if (!isRehearsed && !only) return Step{Step::Rehearse, 0, 0, 0, layers.editFor(kGlow), "", {}};
+  if (!isChecked && !only) return WorkStep{WorkStep::Check, 0, 0, 0, layers.editFor(kGlow), "", {}};
+  if (!isRehearsed && !only) return WorkStep{WorkStep::Rehearse, 0, 0, 0, layers.editFor(kGlow), "", {}};
   return std::nullopt;
 }
 
-bool WorkOrder::isWanted(const Step& step, const EditedLayers& layers) const {
-  if (step.kind == Step::Gather) return true;
-  if (step.kind == Step::Check || step.kind == Step::Rehearse) return false;
+bool WorkOrder::isWanted(const WorkStep& step, const EditedLayers& layers) const {
+  if (step.kind == WorkStep::Gather) return true;
+  if (step.kind == WorkStep::Check || step.kind == WorkStep::Rehearse) return false;
   return layers[step.layer].parts.wanted() == step.number;
 }
 
-void WorkOrder::finish(const Step& step, EditedLayers& layers) {
+void WorkOrder::finish(const WorkStep& step, EditedLayers& layers) {
   switch (step.kind) {
-    case Step::Part:
+    case WorkStep::Part:
       layers[step.layer].parts.take(step.part, step.number);
       break;
-    case Step::Coarse:
+    case WorkStep::Coarse:
       layers[step.layer].coarse = step.number;
       break;
-    case Step::Gather:
+    case WorkStep::Gather:
       toGather.reset();
       break;
-    case Step::Check:
+    case WorkStep::Check:
       isChecked = true;
       break;
-    case Step::Rehearse:
+    case WorkStep::Rehearse:
       isRehearsed = true;
       break;
   }

@@ -7,7 +7,7 @@
 namespace tomales {
 
 /// One step of the work.
-struct Step {
+struct WorkStep {
   enum Kind { Part, Coarse, Gather, Check, Rehearse } kind;
   size_t layer = 0, part = 0;
   uint32_t number = 0;  ///< LayerParts::wanted() when it begins.
@@ -25,15 +25,15 @@ struct WorkOrder {
   bool isRehearsed = false;  ///< The first picture is there, and the rays of the coarse one are known.
 
   /// Returns nothing if all is done.
-  std::optional<Step> next(const EditedLayers& layers, const PictureParts& parts) const;
+  std::optional<WorkStep> next(const EditedLayers& layers, const PictureParts& parts) const;
   /// Tells whether a step that is running is of use still.
-  bool isWanted(const Step& step, const EditedLayers& layers) const;
+  bool isWanted(const WorkStep& step, const EditedLayers& layers) const;
   /// Notes that a step is done.
-  void finish(const Step& step, EditedLayers& layers);
+  void finish(const WorkStep& step, EditedLayers& layers);
 
  private:
-  std::optional<Step> nextPart(size_t fromLayer, size_t toLayer, const EditedLayers& layers,
-                               const PictureParts& parts) const;
+  std::optional<WorkStep> nextPart(size_t fromLayer, size_t toLayer, const EditedLayers& layers,
+                                   const PictureParts& parts) const;
 };
 
 }  // namespace tomales

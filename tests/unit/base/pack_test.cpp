@@ -17,5 +17,19 @@ TEST(Pack, WritesNothingToWhatItPacks) {
   EXPECT_EQ(contentSum(no), contentSum(false));
 }
 
+TEST(Pack, ForgedNumbersOfElementsEndWithTheBytes) {
+  const std::vector<std::string> two{"ab", "c"};
+  Bytes bytes = pack(two);
+  EXPECT_EQ(Unpacker{bytes}.get<std::vector<std::string>>(), two);
+  bytes.resize(1000);  // The elements that follow are empty texts.
+  const uint64_t forged = 900;
+  std::memcpy(bytes.data(), &forged, sizeof forged);
+  std::vector<std::string> read;
+  Unpacker unpacker{bytes};
+  field(unpacker, read);
+  EXPECT_TRUE(unpacker.damaged);
+  EXPECT_LT(read.size(), 200u);
+}
+
 }  // namespace
 }  // namespace tomales

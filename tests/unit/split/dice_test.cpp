@@ -52,7 +52,7 @@ TEST(Dice, PiecesThatShareAGridAreWhatTheyAreAlone) {
     const PatchPiece& piece = pieces[static_cast<size_t>(p)];
     const Grid one = dice(scene, 0, piece.patch, piece.rect, nu, nv, keys);
     const Grid::Piece &a = all.pieces[static_cast<size_t>(p)], &b = one.pieces[0];
-    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.sampleKey, b.sampleKey);
     EXPECT_EQ(a.openEdges, b.openEdges);
     for (int v = 0; v < one.vertexCount(); ++v) {
       const int k = p * all.verticesOfPiece() + v;
