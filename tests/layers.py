@@ -43,7 +43,7 @@ THIRD_PARTY = {
     "tbb/": ["reyes/base/parallel.cpp"],
     "nlohmann/": ["reyes/app/"],
     "CLI/": ["reyes/app/"],
-    "httplib.h": ["reyes/app/relight/http_server.cpp"],
+    "httplib.h": ["reyes/app/relight/http_module.cpp"],
     "zstd.h": ["reyes/base/chunk_file.cpp", "reyes/base/record_file.cpp"],
     "xxhash.h": ["reyes/base/checksum.cpp"],
     "hwy/": ["reyes/base/vector.h"],

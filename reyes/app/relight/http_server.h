@@ -30,22 +30,20 @@ using HttpHandler = std::function<HttpReply(const HttpQuestion&)>;
 
 class HttpServer {
  public:
-  /// Binds to a free port, or to this one. Throws std::runtime_error if it cannot.
-  explicit HttpServer(int port);
-  ~HttpServer();  ///< Ends as stop() does.
+  /// Binds to a free port, or to this one. Throws std::runtime_error if it cannot, or if the module with the library
+  /// that speaks HTTP is missing.
+  static std::unique_ptr<HttpServer> bind(int port);
+  virtual ~HttpServer() = default;  ///< Ends as stop() does.
 
-  /// Set the handler of a path behind the token, such as "scene". Call them before start().
-  void get(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
-  void post(const std::string& path, HttpHandler handler, const HttpRate& rate = {});
+  /// Set the handler of a path behind the token, such as "scene". Call them before start(). A handler that throws gets
+  /// status 500.
+  virtual void get(const std::string& path, HttpHandler handler, const HttpRate& rate = {}) = 0;
+  virtual void post(const std::string& path, HttpHandler handler, const HttpRate& rate = {}) = 0;
   /// Answers from a thread of its own until stop().
-  void start();
-  void stop();
+  virtual void start() = 0;
+  virtual void stop() = 0;
   /// Returns the address of the page, with the token.
-  std::string url() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual std::string url() const = 0;
 };
 
 }  // namespace tomales

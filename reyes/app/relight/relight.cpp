@@ -59,13 +59,13 @@ class RelightServer {
         log_(log),
         relighting_(fileOfShot(), stats, log),
         edits_(command.folder),
-        server_(command.port) {}
+        server_(HttpServer::bind(command.port)) {}
 
   /// Returns the exit code: what a page tries out later is no fault of the shot.
   int run() {
     addRoutes();
-    server_.start();
-    std::printf("%s\n", server_.url().c_str());
+    server_->start();
+    std::printf("%s\n", server_->url().c_str());
     std::fflush(stdout);
     if (command_.opens) openBrowser();
     const End end{*this};
@@ -80,7 +80,7 @@ class RelightServer {
     ~End() {
       relight.prepared_.open(false);
       relight.ended_ = true;
-      relight.server_.stop();
+      relight.server_->stop();
     }
   };
 
@@ -111,26 +111,34 @@ class RelightServer {
     return code;
   }
 
-  /// A handler that waits until the shot is there.
+  /// A handler that waits until the shot is there, and tells the page why it is refused.
   using Answer = HttpReply (RelightServer::*)(const HttpQuestion&);
   HttpHandler later(Answer answer) {
-    return [this, answer](const HttpQuestion& q) {
+    return [this, answer](const HttpQuestion& q) -> HttpReply {
       prepared_.pass();
-      return (this->*answer)(q);
+      try {
+        return (this->*answer)(q);
+      } catch (const BadRequest& e) {
+        return {400, "text/plain", e.what()};
+      } catch (const Watches& e) {
+        return {409, "text/plain", e.what()};
+      } catch (const Json::exception&) {
+        return {400, "text/plain", "this is not the JSON that is expected here"};
+      }
     };
   }
 
   void addRoutes() {
     for (const PageFile& file : relightPage())
-      server_.get(file.name == "index.html" ? "" : std::string(file.name), [file](const HttpQuestion&) {
+      server_->get(file.name == "index.html" ? "" : std::string(file.name), [file](const HttpQuestion&) {
         return HttpReply{200, typeOf(file.name), std::string(file.text)};
       });
-    server_.get("preparation", [this](const HttpQuestion&) {
+    server_->get("preparation", [this](const HttpQuestion&) {
       Json out = relighting_.preparation();
       out["ready"] = prepared_.isOpen();
       return jsonReply(out);
     });
-    server_.post("end", [this](const HttpQuestion&) {
+    server_->post("end", [this](const HttpQuestion&) {
       ended_ = true;
       if (!prepared_.isOpen() || relighting_.isGathering()) requestStop();  // as Ctrl-C does
       return jsonReply(Json::object());
@@ -143,9 +151,9 @@ class RelightServer {
         {"edit", &RelightServer::edit}, {"leave", &RelightServer::leave},       {"pointer", &RelightServer::pointer},
         {"ask", &RelightServer::ask},   {"variable", &RelightServer::variable}, {"gather", &RelightServer::gather},
         {"only", &RelightServer::only}, {"load", &RelightServer::load}};
-    for (const auto& [path, answer] : gets) server_.get(path, later(answer));
-    for (const auto& [path, answer] : posts) server_.post(path, later(answer));
-    server_.post("save", later(&RelightServer::save), kSaves);
+    for (const auto& [path, answer] : gets) server_->get(path, later(answer));
+    for (const auto& [path, answer] : posts) server_->post(path, later(answer));
+    server_->post("save", later(&RelightServer::save), kSaves);
   }
 
   HttpReply scene(const HttpQuestion&) { return jsonReply(relighting_.description()); }
@@ -248,7 +256,7 @@ class RelightServer {
 
   void openBrowser() const {
     if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-    const std::string command = "xdg-open '" + server_.url() + "' > /dev/null 2>&1 &";
+    const std::string command = "xdg-open '" + server_->url() + "' > /dev/null 2>&1 &";
     if (std::system(command.c_str()) != 0) return;  // the address is in the terminal
   }
 
@@ -261,7 +269,7 @@ class RelightServer {
   Gate prepared_;
   Editor editor_;
   std::atomic<bool> ended_{false};
-  HttpServer server_;  ///< The last, since its handlers use all others until it ends.
+  const std::unique_ptr<HttpServer> server_;  ///< The last, since its handlers use all others until it ends.
 };
 
 }  // namespace
