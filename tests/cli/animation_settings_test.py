@@ -1,14 +1,13 @@
 """Tests that settings of light that --target-error finds on a few frames hold for all frames of a run, and by a file for frames of other runs."""
 import json
 import pathlib
-import re
-import subprocess
 import sys
 
 from lit_room import ROOM
 from program import Suite
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "image"))
+import exr  # noqa: E402
 from pictures import pixels  # noqa: E402
 
 t = Suite()
@@ -34,8 +33,8 @@ def run(*arguments):
         picture = t.folder / f"room.{f:04}.exr"
         if not picture.exists():
             continue
-        header = subprocess.run(["oiiotool", "--info", "-v", picture], capture_output=True, text=True).stdout
-        chosen[f] = (re.search(r'tomales:chosen: "(.*)"', header) or ["", ""])[1]
+        header = exr.texts(picture)
+        chosen[f] = header.get("tomales:chosen", "")
         audited += [f] if "tomales:audit" in header else []
     return result, chosen, audited
 
@@ -78,8 +77,7 @@ t.expect(result.returncode != 0 and "damaged.json" in result.stderr, "so is one 
 
 text = (t.folder / "shot.rib").read_text()
 result = t.run("-", "-t", "1", "--target-error", "2%", stdin=text)
-chosen = [subprocess.run(["oiiotool", "--info", "-v", t.folder / f"room.{f:04}.exr"], capture_output=True, text=True).stdout for f in range(1, FRAMES + 1)]
-chosen = {re.search(r'tomales:chosen: "(.*)"', header)[1] for header in chosen}
+chosen = {exr.texts(t.folder / f"room.{f:04}.exr")["tomales:chosen"] for f in range(1, FRAMES + 1)}
 t.expect(result.returncode == 0 and len(chosen) == 1, f"of a stream the first frame decides for all: {chosen}")
 
 result = t.run("one.rib", "-o", "one.exr", "--target-error", "2%")

@@ -11,6 +11,7 @@ import sys
 from program import Suite
 
 sys.path.append(str(pathlib.Path(__file__).parents[1] / "image"))
+import exr  # noqa: E402
 from pictures import pixels
 
 t = Suite()
@@ -56,23 +57,20 @@ def contents():
 
 
 def header(name):
-    """Returns {attribute: its text as oiiotool prints it}, and the data window."""
+    """Returns {attribute: its text as oiiotool prints it}."""
     text = subprocess.run(["oiiotool", "--info", "-v", str(t.folder / name)], capture_output=True, text=True).stdout
-    out = dict(re.findall(r'^ +([\w:/]+): "?(.*?)"?$', text, re.M))
-    width, height = map(int, re.search(r": +(\d+) x +(\d+)", text).groups())
-    x, y = map(int, re.search(r"pixel data origin: x=(\d+), y=(\d+)", text).groups()) if "pixel data origin" in text else (0, 0)
-    return out, (x, y, width, height)
+    return dict(re.findall(r'^ +([\w:/]+): "?(.*?)"?$', text, re.M))
 
 
 def window(name):
-    return header(name)[1]
+    return exr.window(t.folder / name)
 
 
 first = t.expect_run("five Displays and a map", ["shot.rib"], 0)
 whole = contents()
 t.expect("warning" not in first.stderr, f"without a warning ({first.stderr})")
 t.expect(sorted(whole) == sorted(PICTURES + ["ball.map"]), f"are all there ({sorted(whole)})")
-t.expect(any(name.startswith("cryptomatte/") for name in header("ids.exr")[0]), "one of them is Cryptomatte")
+t.expect(any(name.startswith("cryptomatte/") for name in header("ids.exr")), "one of them is Cryptomatte")
 t.run("hide", "beauty.rib", "-o", "beauty.dfb")
 CROP = ["--crop", "0.25,0.5,0.25,0.75"]
 for command, output, crop, one in itertools.product((["render", "shot.rib"], ["shade", "beauty.dfb"]), (None, "look.exr", "beauty.exr"), (False, True), (False, True)):
@@ -178,7 +176,7 @@ def projected(matrix, p):
 
 
 for name in PICTURES:
-    said = header(name)[0]
+    said = header(name)
     t.expect(float(said["near"]) == 0.5 and float(said["far"]) == 100, f"{name} has the clipping planes")
     at = projected([float(v) for v in said["worldToNDC"].split(",")], (0, 0, 0))
     # A sphere's outline is an ellipse whose middle is a little farther out than the projected middle of the sphere.
@@ -187,7 +185,7 @@ for name in PICTURES:
         t.expect(said.get(f"tomales:{key}", "") == value, f"{name} tells {key}")
     t.expect(said["tomales:version"] == sys.argv[2], f"{name} tells the version")
 t.run("beauty.rib", "-o", "set.exr", "--gi", "gather", "--samples", "16", "-q")
-settings = header("set.exr")[0]["tomales:settings"]
+settings = header("set.exr")["tomales:settings"]
 t.expect(settings == "--gi gather --samples 16", f"settings of the command line are told ({settings})")
 
 # Finished frames are left out, and their contents tell that they are finished.
@@ -240,12 +238,12 @@ _, errors = process.communicate(timeout=200)
 t.expect(process.returncode == 143 and "long.partial.exr" in errors, f"an interrupted frame tells its file ({process.returncode}, {errors[:300]})")
 t.expect(contents()["long.exr"] == before, "the finished one is kept")
 t.expect(window("long.partial.exr")[2:] == (900, 700), "and what is finished is beside it")
-share = float(header("long.partial.exr")[0]["tomales:finished"])
+share = float(header("long.partial.exr")["tomales:finished"])
 t.expect(0 < share < 1, f"whose header tells the share of it ({share})")
-t.expect(header("long.exr")[0]["tomales:finished"] == "1.000", "and that a whole picture is whole")
+t.expect(header("long.exr")["tomales:finished"] == "1.000", "and that a whole picture is whole")
 one = (t.folder / "one.exr").read_bytes()
 (t.folder / "one.exr").write_bytes(one.replace(b"1.000", b"0.500", 1))
-t.expect(header("one.exr")[0]["tomales:finished"] == "0.500", "(a partial picture by the name of a whole one)")
+t.expect(header("one.exr")["tomales:finished"] == "0.500", "(a partial picture by the name of a whole one)")
 t.run("beauty.rib", "-o", "one.exr", "--one-picture", "--skip-finished", "-q")
 t.expect((t.folder / "one.exr").read_bytes() == one, "a partial picture is not taken for a finished one")
 t.finish()

@@ -2,13 +2,13 @@
 import json
 import pathlib
 import re
-import subprocess
 import sys
 
 from lit_room import ROOM
 from program import Suite
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "image"))
+import exr  # noqa: E402
 from pictures import pixels  # noqa: E402
 
 t = Suite()
@@ -25,8 +25,7 @@ def reach(out, target, *arguments, command=("room.rib",)):
 
 def last_of(picture):
     """Returns the settings that the header tells."""
-    header = subprocess.run(["oiiotool", "--info", "-v", t.folder / picture], capture_output=True, text=True).stdout
-    return re.search(r'tomales:chosen: "(.*)"', header)[1].split()
+    return exr.texts(t.folder / picture)["tomales:chosen"].split()
 
 
 def setting(options, name):

@@ -1,6 +1,7 @@
 """Reads the OpenEXR files that most tests look at: one part of scanlines, uncompressed or compressed by ZIP. To start oiiotool would take
 several times as long as a small render. The layout is that of "OpenEXR File Layout" (openexr.com)."""
 import itertools
+import pathlib
 import struct
 import zlib
 
@@ -15,13 +16,13 @@ def _text(data, at):
 
 
 def _header(data):
-    """Returns {attribute: its bytes}, and the offset where they end."""
+    """Returns {attribute: (its type, its bytes)} of the first part, and the offset where they end."""
     out, at = {}, 8
     while data[at]:
         name, at = _text(data, at)
-        _, at = _text(data, at)
+        kind, at = _text(data, at)
         size = struct.unpack_from("<i", data, at)[0]
-        out[name], at = data[at + 4:at + 4 + size], at + 4 + size
+        out[name], at = (kind, data[at + 4:at + 4 + size]), at + 4 + size
     return out, at + 1
 
 
@@ -45,22 +46,39 @@ def _unzipped(packed, size):
     return out
 
 
-def read(path, wanted):
-    """Returns the display window's size and {(x, y) within it: numbers} of the data window, with the channels in the order of `wanted`. Returns
-    None if the file has other channels, or a layout that is not read here."""
-    data = path.read_bytes()
+def _order(name):
+    """Orders channels as oiiotool does: by layer, and red, green, blue and alpha first in each."""
+    layer, _, part = name.rpartition(".")
+    return layer, "RGBA".find(part.upper()) % 5, part
+
+
+def texts(path):
+    """Returns {attribute: text} of the attributes that are texts."""
+    return {name: value.decode() for name, (kind, value) in _header(pathlib.Path(path).read_bytes())[0].items() if kind == "string"}
+
+
+def window(path):
+    """Returns x, y, width and height of the data window."""
+    x0, y0, x1, y1 = struct.unpack("<4i", _header(pathlib.Path(path).read_bytes())[0]["dataWindow"][1])
+    return x0, y0, x1 - x0 + 1, y1 - y0 + 1
+
+
+def read(path, wanted=None):
+    """Returns the display window's size and {(x, y) within it: numbers} of the data window, with the channels in the order of `wanted`, or of
+    oiiotool. Returns None if the file is of a layout that is not read here."""
+    data = pathlib.Path(path).read_bytes()
     if data[:4] != b"\x76\x2f\x31\x01" or struct.unpack_from("<I", data, 4)[0] & NOT_SCANLINES:
         return None
     header, at = _header(data)
-    channels = _channels(header["channels"])
-    lines = SCANLINES.get(header["compression"][0])
-    if lines is None or not {name for name, _ in channels} <= set(wanted):
+    channels = _channels(header["channels"][1])
+    lines = SCANLINES.get(header["compression"][1][0])
+    if lines is None:
         return None
-    x0, y0, x1, y1 = struct.unpack("<4i", header["displayWindow"])
-    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    x0, y0, x1, y1 = struct.unpack("<4i", header["displayWindow"][1])
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"][1])
     width = right - left + 1
     line = sum(width * struct.calcsize(code) for _, code in channels)
-    order = [name for name in wanted if name in dict(channels)]
+    order = wanted or sorted((name for name, _ in channels), key=_order)
     out = {}
     for start in struct.unpack_from(f"<{-(-(bottom - top + 1) // lines)}Q", data, at):
         y, size = struct.unpack_from("<ii", data, start)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 
+import exr
 from pictures import pixels
 
 tomales, root = str(pathlib.Path(sys.argv[1]).absolute()), pathlib.Path(sys.argv[2]).absolute()
@@ -48,17 +49,14 @@ def as_id(name):
 
 def layer(path, name):
     """Returns (manifest, {(x, y): {id: coverage}}, number of ranks) of a Cryptomatte layer."""
-    info = subprocess.run(["oiiotool", "--info", "-v", str(path)], capture_output=True, text=True, check=True).stdout
+    info = exr.texts(path)
     key = f"cryptomatte/{murmur(name):08x}"[:len("cryptomatte/") + 7]
-    assert f'{key}/name: "{name}"' in info and f'{key}/hash: "MurmurHash3_32"' in info, info
-    assert f'{key}/conversion: "uint32_to_float32"' in info
-    manifest = re.search(re.escape(key) + r'/manifest: "(.*)"$', info, re.M)[1]
-    manifest = json.loads(manifest)
+    assert info[f"{key}/name"] == name and info[f"{key}/hash"] == "MurmurHash3_32", info
+    assert info[f"{key}/conversion"] == "uint32_to_float32"
+    manifest = json.loads(info[f"{key}/manifest"])
     channels = [f"{name}{rank // 2:02d}.{c}" for rank in range(0, 6, 2) for c in "RGBA"]
-    picked = path.with_suffix(".picked.exr")
-    subprocess.run(["oiiotool", str(path), "--ch", ",".join(channels), "-d", "float", "-o", str(picked)], check=True)
     found = {}
-    for at, p in pixels(picked).items():
+    for at, p in exr.read(path, channels)[1].items():
         found[at] = {p[i]: p[i + 1] for i in range(0, 12, 2) if p[i + 1] > 0}
         coverage = [p[i] for i in range(1, 12, 2)]
         assert coverage == sorted(coverage, reverse=True), "ranks are not in order"

@@ -27,7 +27,7 @@ def _tiff_fields(data):
 
 def pixels(path):
     """Returns {(x, y): (R, G, B, ...)} of an image file. Pixels outside of the data window of a crop are black."""
-    if read := exr.read(pathlib.Path(path), "RGBA"):
+    if read := exr.read(path):
         (width, height), seen = read
         black = (0.0,) * len(next(iter(seen.values())))
         return {(x, y): seen.get((x, y), black) for y in range(height) for x in range(width)}

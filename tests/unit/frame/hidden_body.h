@@ -63,19 +63,24 @@ struct Holes {
 /// A pixel lies inside the silhouette if all within `margin` pixels of it are at least half covered: where
 /// blur spreads the silhouette by that much to either side, coverage is whole again.
 inline Holes holes(const DeepFrame& frame, int margin = 2) {
-  Holes found;
   const PixelRect& r = frame.crop;
+  const int width = r.x1 - r.x0;
+  std::vector<int> samples;
+  for (int y = r.y0; y < r.y1; ++y)
+    for (int x = r.x0; x < r.x1; ++x) samples.push_back(covered(frame, x, y));
+  const auto seen = [&](int x, int y) { return samples[static_cast<size_t>((y - r.y0) * width + x - r.x0)]; };
   const auto inside = [&](int x, int y) {
     for (int dy = -margin; dy <= margin; ++dy)
       for (int dx = -margin; dx <= margin; ++dx)
-        if (!r.contains(x + dx, y + dy) || 2 * covered(frame, x + dx, y + dy) < frame.samplesPerPixel) return false;
+        if (2 * seen(x + dx, y + dy) < frame.samplesPerPixel) return false;
     return true;
   };
-  for (int y = r.y0; y < r.y1; ++y)
-    for (int x = r.x0; x < r.x1; ++x)
+  Holes found;
+  for (int y = r.y0 + margin; y < r.y1 - margin; ++y)
+    for (int x = r.x0 + margin; x < r.x1 - margin; ++x)
       if (inside(x, y)) {
         ++found.inside_px;
-        found.samples += frame.samplesPerPixel - covered(frame, x, y);
+        found.samples += frame.samplesPerPixel - seen(x, y);
       }
   return found;
 }
