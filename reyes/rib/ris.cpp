@@ -13,14 +13,16 @@ namespace {
 using Translator = Translation (*)(const Request&, RisState&);
 
 // A path of length 1 is direct light alone (maxPathLength of PRMan 19 to 22).
-Translation integrator(const Request& r, RisState&) {
+Translation integrator(const Request& r, RisState& state) {
   const std::string& name = r.args[0].strings[0];
-  if (name == "PxrDirectLighting") return {{}, {standsIn(r, "direct light of the scene's own lights")}};
+  state.hasIntegrator = name != "PxrDefault";  // headLamp() is its other half
+  if (name == "PxrDirectLighting" || name == "PxrDefault")
+    return {{}, {standsIn(r, "direct light of the scene's own lights")}};
   ParamList params;
   const Param *bounces = findParam(r.params, "maxIndirectBounces"), *length = findParam(r.params, "maxPathLength");
   const float most = bounces ? bounces->number(1) : length ? length->number(2) - 1 : 1;
   if (bounces || length) params.push_back(param("bounces", ValueType::Float, {most}));
-  static const std::set<std::string_view> global = {"PxrPathTracer", "PxrDefault", "PxrVCM", "PxrUPBP", "PxrUnified"};
+  static const std::set<std::string_view> global = {"PxrPathTracer", "PxrVCM", "PxrUPBP", "PxrUnified"};
   const Severity severity = global.contains(name) ? Severity::Warning : Severity::Missing;
   if (most < 1) return {{}, {standsIn(r, "direct light alone", severity)}};
   return {Script(r).say("LightSource", {string("indirectlight"), string("Integrator " + name)}, params).list(),
@@ -28,6 +30,11 @@ Translation integrator(const Request& r, RisState&) {
 }
 
 Translation ignored(const Request& r, RisState&) { return {{}, {note(r, "is not available: ignored")}}; }
+
+Translation bxdf(const Request& r, RisState& state) {
+  state.bxdf = r;
+  return risBxdf(r, state.patterns);
+}
 
 Translation pattern(const Request& r, RisState& state) {
   state.patterns[r.args[1].strings[0]] = r;
@@ -53,7 +60,7 @@ Translation displayFilter(const Request& r, RisState& state) {
 
 const std::unordered_map<std::string_view, Translator>& translators() {
   static const std::unordered_map<std::string_view, Translator> table = {
-      {"Bxdf", [](const Request& r, RisState& state) { return risBxdf(r, state.patterns); }},
+      {"Bxdf", bxdf},
       {"Light", [](const Request& r, RisState&) { return risLight(r); }},
       {"AreaLightSource", stdLight},
       {"Geometry", [](const Request& r, RisState& state) { return envSphere(r, state); }},

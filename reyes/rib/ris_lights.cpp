@@ -94,4 +94,20 @@ Translation risLight(const Request& r) {
   return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};
 }
 
+Translation headLamp(const RisState& state) {
+  if (!state.bxdf || state.hasIntegrator) return {};
+  const Request& r = *state.bxdf;
+  return {
+      Script(r)
+          .say("TransformBegin")
+          .say("CoordSysTransform", {string("camera")})
+          .say("LightSource", {string("distantlight"), string("PxrDefault")})
+          .say("TransformEnd")
+          .list(),
+      {{"PxrDefault",
+        "there is neither a light nor an Integrator that needs one: a distantlight at the eye stands in for that of "
+        "PxrDefault",
+        r.where, Severity::Warning, "light-none"}}};
+}
+
 }  // namespace tomales::rib

@@ -99,7 +99,7 @@ void SceneBuilder::perform(const Request& r) {
   if (!usableArguments(r)) return state_.warn(r, "rib-not-finite", "an argument is not a finite number; ignored");
   if (isTransformation(r.name)) return applyTransformation(state_, {&r}, {0.0f});
   if (inProcedural_ && refuse(r)) return;
-  if (isRis(r)) return performRis(r);
+  if (isRis(r)) return performTranslation(translateRis(r, state_.globals.ris));
   if (performBlock(r) || performHandler(r)) return;
   state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
 }
@@ -121,8 +121,7 @@ bool SceneBuilder::refuse(const Request& r) {
   return true;
 }
 
-void SceneBuilder::performRis(const Request& r) {
-  const Translation translation = translateRis(r, state_.globals.ris);
+void SceneBuilder::performTranslation(const Translation& translation) {
   for (const Note& note : translation.notes) state_.warnOnce(note.key, note.where, note.code, note.text, note.severity);
   const size_t lights = state_.globals.lights.size();
   for (const Request& request : translation.requests) perform(request);
@@ -237,6 +236,7 @@ void SceneBuilder::endWorld(const SourceLoc& where) {
     state_.log.report(Severity::Warning, "rib-unbalanced", where, "WorldEnd without WorldBegin, ignored");
     return;
   }
+  if (state_.globals.lights.empty()) performTranslation(headLamp(state_.globals.ris));
   state_.lightEarlierObjects();
   Scene scene;
   scene.options = state_.globals.options;

@@ -67,7 +67,7 @@ class SceneBuilder : public RiSink {
   /// Performs what changes more than the graphics state. Returns false if the request is none of those.
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
-  void performRis(const Request& request);
+  void performTranslation(const Translation& translation);
 
   void declare(const Request& request);
   void errorHandler(const Request& request);

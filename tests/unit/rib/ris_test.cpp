@@ -247,6 +247,23 @@ TEST(Ris, IntegratorsOfGlobalLightLackNothing) {
             Severity::Missing);
 }
 
+TEST(Ris, WorldsWithoutLightsAndIntegratorHaveALampAtTheEye) {
+  const std::string bxdf = "Bxdf \"PxrDiffuse\" \"d\" ";
+  for (const std::string integrator : {"", "Integrator \"PxrDefault\" \"i\" "}) {
+    const Reading r(integrator + "Translate 0 0 9 " +
+                    inWorld("AttributeBegin " + bxdf + "Rotate 90 0 1 0 " + kSphere + "AttributeEnd " + kSphere));
+    ASSERT_EQ(r.scene().lights.size(), 1u);
+    const ShaderCall& lamp = r.scene().lights[0]->shader;
+    EXPECT_EQ(lamp.name, "distantlight");
+    expectNear(vec3(lamp.worldFromShader.at(0) * vec4(0, 0, 0, 1)), {0, 0, -9});
+    for (const size_t i : {0u, 1u}) EXPECT_EQ(r.attributes(i).lights, LightList{0}) << "it comes after them";
+  }
+  const auto lights = [](const std::string& rib) { return Reading(rib).scene().lights.size(); };
+  EXPECT_EQ(lights(inWorld(kSphere)), 0u) << "a world of shaders in RSL";
+  EXPECT_EQ(lights("Integrator \"PxrDirectLighting\" \"i\" " + inWorld(bxdf + kSphere)), 0u);
+  EXPECT_EQ(lights(inWorld(bxdf + kSphere + "Light \"PxrDomeLight\" \"sky\"")), 1u);
+}
+
 TEST(Ris, SourcesOfChannelsLoseTheirTypeAndPathsBecomeOutputs) {
   const auto source = [](const std::string& theirs) {
     const Reading r("DisplayChannel \"color c\" \"string source\" [\"" + theirs + "\"]" + inWorld(kSphere));
