@@ -1,6 +1,7 @@
 // Shaders by name: those of the program, of plugins, and of texts in RSL. Threads: any.
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "reyes/base/log.h"
@@ -38,8 +39,9 @@ constexpr const char* kOfSurface = "surface:";
 /// The known shaders. Built-in ones and plugins share one table.
 class ShaderRegistry {
  public:
-  /// `standardFromFiles`: a file that is called as a shader whose look RISpec fixes ("plastic") comes before that.
-  explicit ShaderRegistry(Log& log, PluginTrust trust = {}, bool standardFromFiles = false);
+  /// `standardFromFiles`: whether a file that is called as a shader whose look RISpec fixes ("plastic") comes before
+  /// that. If this is not given, it does so if it has parameters that the built-in one lacks.
+  explicit ShaderRegistry(Log& log, PluginTrust trust = {}, std::optional<bool> standardFromFiles = {});
   ~ShaderRegistry();
   /// Checks versions and sizes before it touches anything else. Later libraries win over earlier ones.
   bool addLibrary(const TmShaderLibrary* library, const std::string& origin);
@@ -48,7 +50,7 @@ class ShaderRegistry {
   /// Adds the shaders of a compiled .sl file, which then come before others of their names.
   bool addText(const std::shared_ptr<const RslFile>& file, const std::string& path);
   /// Finds a shader by name and kind, in this order:
-  ///   1 shaders that have been loaded and, unless standardFromFiles, built-in ones whose look RISpec fixes
+  ///   1 shaders that have been loaded and, unless such a file comes before, built-in ones whose look RISpec fixes
   ///   2 NAME.so in the trusted folders
   ///   3 NAME.sl along `searchPath`, in the trusted folders, and in `beside`, the folder of the file that names it
   ///   4 other built-in ones

@@ -25,7 +25,7 @@ struct InputSettings {
   bool framesApart = false;                ///< Frames that --frames leaves out need not be read.
   std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.
   Trust trust;                             ///< Trust in the code that the RIB names.
-  bool standardFromFiles = false;          ///< A file that is called as a shader of RISpec's comes before that.
+  std::optional<bool> standardFromFiles;   ///< ShaderRegistry's.
 };
 
 /// The pictures: where they go, and what takes the place of the scene's options.

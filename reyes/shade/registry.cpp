@@ -27,7 +27,21 @@ bool isOfSpecification(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, bool standardFromFiles)
+namespace {
+
+/// Returns the name of a parameter that the first shader has and the second lacks; empty if there is none.
+std::string furtherParameter(const TmShader& shader, const TmShader& other) {
+  std::set<std::string_view> known;
+  for (const TmParamDecl& p : standardParams(static_cast<TmKind>(other.kind))) known.insert(p.name);
+  for (int32_t k = 0; k < other.paramCount; ++k) known.insert(other.params[k].name);
+  for (int32_t k = 0; k < shader.paramCount; ++k)
+    if (!known.count(shader.params[k].name)) return shader.params[k].name;
+  return {};
+}
+
+}  // namespace
+
+ShaderRegistry::ShaderRegistry(Log& log, PluginTrust trust, std::optional<bool> standardFromFiles)
     : impl_(new Impl{log, std::move(trust), standardFromFiles, {}, {}, {}, {}, false, {}, {}}) {}
 ShaderRegistry::~ShaderRegistry() = default;
 
@@ -88,10 +102,12 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
     if (!compiles) broken[{name, kind, searchPath, beside}] = found.file;
   }
   if (!found.remark.empty()) tell(name, found.remark);
-  if (found.shader) {
-    origins[found.shader] = found.file;
-    tellOfOtherFolder(name, found);
-  }
+  if (found.shader) tellOfOtherFolder(name, found);
+  return keep(found);
+}
+
+const TmShader* ShaderRegistry::Impl::keep(const RslFound& found) {
+  if (found.shader) origins[found.shader] = found.file;
   if (found.displacement) displacements[found.shader] = found.displacement;
   return found.shader;
 }
@@ -105,27 +121,46 @@ void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslF
 }
 
 /// Tells a user whose folder has a shader with a name of RISpec's, such as "plastic", which of the two is used.
+/// `because` ends the sentence.
 void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& searchPath,
-                                              const std::string& beside) {
-  if (!isOfSpecification(used.name)) return;
+                                              const std::string& beside, const std::string& because) {
+  const std::string file = fileOfStandardName(used, searchPath, beside);
+  if (file.empty()) return;
+  const bool isOurs = builtIn.count(&used) > 0;
+  log.report(Severity::Note, "shader-standard", {std::make_shared<const std::string>(file), 0},
+             fmt::format("\"{}\" is a shader of RISpec's: {}{} (--standard-shaders {})", used.name,
+                         isOurs ? "the built-in one is used, not this file" : "this file is used, not the built-in one",
+                         because, isOurs ? "files would take this one" : "built-in would take that"),
+             used.name);
+}
+
+std::string ShaderRegistry::Impl::fileOfStandardName(const TmShader& shader, const std::string& searchPath,
+                                                     const std::string& beside) const {
   std::error_code none;
-  for (const std::string& folder : textFolders(searchPath, beside)) {
-    const std::string file = (fs::path(folder) / (std::string(used.name) + ".sl")).string();
-    if (!fs::is_regular_file(file, none)) continue;
-    const bool isOurs = builtIn.count(&used) > 0;
-    return log.report(
-        Severity::Note, "shader-standard", {std::make_shared<const std::string>(file), 0},
-        fmt::format("\"{}\" is a shader of RISpec's: {} (--standard-shaders {})", used.name,
-                    isOurs ? "the built-in one is used, not this file" : "this file is used, not the built-in one",
-                    isOurs ? "files would take this one" : "built-in would take that"),
-        used.name);
-  }
+  if (isOfSpecification(shader.name))
+    for (const std::string& folder : textFolders(searchPath, beside))
+      if (const fs::path file = fs::path(folder) / (std::string(shader.name) + ".sl"); fs::is_regular_file(file, none))
+        return file.string();
+  return {};
+}
+
+const TmShader* ShaderRegistry::Impl::shaderOfStandardName(const TmShader& ours, const std::string& searchPath,
+                                                           const std::string& beside) {
+  if (fileOfStandardName(ours, searchPath, beside).empty()) return nullptr;
+  const auto kind = static_cast<TmKind>(ours.kind);
+  const RslFound found = findRslShader(ours.name, kind, textFolders(searchPath, beside), functionsAlong(searchPath));
+  const std::string further = found.shader ? furtherParameter(*found.shader, ours) : "";
+  if (further.empty()) return nullptr;
+  tellOfStandardName(*keep(found), searchPath, beside, fmt::format(", which has no parameter \"{}\"", further));
+  return found.shader;
 }
 
 const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
                                              const std::string& beside) {
   const TmShader* const own = known(name, kind);
   if (own && comesBeforeTexts(*own)) {
+    if (builtIn.count(own) && !standardFromFiles)
+      if (const TmShader* s = shaderOfStandardName(*own, searchPath, beside)) return s;
     tellOfStandardName(*own, searchPath, beside);
     return own;
   }

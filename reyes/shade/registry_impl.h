@@ -19,7 +19,7 @@ bool isOfSpecification(std::string_view name);
 struct ShaderRegistry::Impl {
   Log& log;
   const PluginTrust trust;
-  const bool standardFromFiles;
+  const std::optional<bool> standardFromFiles;
   std::mutex mutex;  // over what follows: find() loads plugins while other frames bind
   std::map<std::pair<int, std::string>, const TmShader*> shaders;
   struct Plugin {
@@ -63,10 +63,18 @@ struct ShaderRegistry::Impl {
   const TmShader* findText(const std::string& name, TmKind kind, const std::string& searchPath,
                            const std::string& beside);
   bool comesBeforeTexts(const TmShader& s) const {
-    return !builtIn.count(&s) || (!standardFromFiles && isOfSpecification(s.name));
+    return !builtIn.count(&s) || (!standardFromFiles.value_or(false) && isOfSpecification(s.name));
   }
   void tellOfOtherFolder(const std::string& name, const RslFound& found);
-  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside);
+  const TmShader* keep(const RslFound& found);
+  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside,
+                          const std::string& because = {});
+  /// Returns the file that is called as a shader of RISpec's; empty if there is none, or if the shader is not of those.
+  std::string fileOfStandardName(const TmShader& shader, const std::string& searchPath,
+                                 const std::string& beside) const;
+  /// Returns the shader of that file if it has parameters that ours lacks: then it is another one, which a scene beside
+  /// it means.
+  const TmShader* shaderOfStandardName(const TmShader& ours, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;

@@ -22,8 +22,8 @@ void addConventions(CLI::App& app, RenderSettings& s) {
       ->type_name("radiance|bmrt");
   app.add_option_function<std::string>(
          "--standard-shaders", [&s](const std::string& t) { s.input.standardFromFiles = t == "files"; },
-         "Shaders of RISpec's names, such as plastic, are built-in (default), or files of these names where there are "
-         "such")
+         "Shaders of RISpec's names, such as plastic, are built-in, or files of these names where there are such "
+         "(default: files that have parameters which the built-in shader lacks)")
       ->check(CLI::IsMember({"built-in", "files"}))
       ->type_name("built-in|files");
 }

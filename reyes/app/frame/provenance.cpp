@@ -51,7 +51,8 @@ std::string settingsText(const RenderSettings& s) {
   add("--irradiance-append", s.stored.appendIrradiance, usual.stored.appendIrradiance);
   add("--no-hit-list", !s.light.hitList, false);
   add("--ray-geometry full", s.light.fullGeometry.value_or(false), false);
-  add("--standard-shaders files", s.input.standardFromFiles, usual.input.standardFromFiles);
+  if (const auto files = s.input.standardFromFiles)
+    add("--standard-shaders", *files ? "files" : "built-in", std::string_view());
   return out;
 }
 
