@@ -146,6 +146,8 @@ void Checker::declaration(Variable& v) {
 
 void Checker::block(Stmt& s) {
   scopes_.emplace_back();
+  for (const StmtPtr& part : s.body)
+    if (part->kind == StmtKind::Define) scopes_.back().functions.emplace(part->function->name, part->function.get());
   for (const StmtPtr& part : s.body) statement(*part);
   for (const auto& [name, v] : scopes_.back().variables) {
     if (v->outer || v->global >= 0) continue;
@@ -207,8 +209,7 @@ void Checker::statement(Stmt& s) {
     case StmtKind::Gather:
       return gather(s);
     case StmtKind::Define:
-      scopes_.back().functions.emplace(s.function->name, s.function.get());
-      return function(*s.function);
+      return function(*s.function);  // block() has made its name known
   }
 }
 

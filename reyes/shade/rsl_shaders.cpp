@@ -94,7 +94,7 @@ std::set<std::string> namesIn(const std::string& path) {
   const auto isOfName = [&](size_t at) {
     return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
   };
-  for (const std::string_view kind : {"surface", "light", "displacement", "volume", "imager"})
+  for (const std::string_view kind : {"surface", "light", "displacement", "volume", "imager", "class"})
     for (size_t at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
       size_t begin = at + kind.size();
       if (!isSpace(begin)) continue;

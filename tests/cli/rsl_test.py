@@ -145,8 +145,28 @@ t.expect_run("an error in a macro of a header of a header", ["compile", "nested.
 t.write("headers/worse.h", "float half(float x) { return x / tow; }\n")
 t.write("headers/deep.h", "#include \"worse.h\"\n#define SHADE Ci = half(1)\n")
 t.expect_run("an error in a header of a header", ["compile", "nested.sl", "-I", "headers"], 2, "headers/worse.h:1:34: error", "included from headers/deep.h:1", "included from nested.sl:1")
-t.write("classes.sl", "class classes(float Kd = 1) { public void surface(output color Ci, Oi) { Ci = Kd; } }\n")
-t.expect_run("a class of RSL 2", ["compile", "classes.sl"], 2, "RSL 2", "classes.sl:1:1")
+t.write("coshader.sl", "class coshader(float Kd = 1) { public float weight() { return Kd; } }\n")
+t.expect_run("a class that others call", ["compile", "coshader.sl"], 2, "RSL 2", "coshader.sl:1:1")
+t.write("alone.sl", """class alone(float grey = 0; float height = 0) {
+  float seen = 0;
+  public void begin() { seen = shade(grey); }
+  public void displacement(output point P; output normal N) { P += height * normalize(N); }
+  public void surface(output color Ci, Oi) { Oi = 1; Ci = color(0, seen, 0); }
+  float shade(float x) { return x; }
+}
+class bulb(float power = 0) { public void light(output vector L; output color Cl) { solar(vector(0, 0, 1), 0) { Cl = power; } } }
+""")
+result = t.expect_run("a class that stands alone", ["compile", "alone.sl"], 0)
+t.expect(not re.search("warning", result.stderr), "is right")
+scene("alone", 'Surface "alone" "grey" [1]')
+render("a class as a surface", "alone")
+expect_all("alone", GREEN, "shades by its methods")
+scene("away", 'Surface "constant" Color [0 0 1] Attribute "displacementbound" "float sphere" [9] Displacement "alone" "height" [-9]')
+render("a class as a displacement", "away")
+t.expect({BLUE, BLACK} <= set(picture("away").values()), "moves the surface away")
+scene("lit", 'LightSource "bulb" 1 "power" [1] Color [0 0 1] Surface "matte"')
+render("a class as a light", "lit")
+expect_all("lit", BLUE, "shines")
 
 # These commands take shaders: compile, info, shadetest.
 t.write("suspicious.sl", "surface suspicious(float unread = 1) { float forgotten; Oi = 1; Ci = forgotten; }\n")

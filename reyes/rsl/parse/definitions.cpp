@@ -10,8 +10,11 @@ namespace {
 
 constexpr int32_t kMostElements = 1 << 20;
 
+/// Tells whether a member of a class may begin with the word. None of these changes what is computed.
+bool isOfMembers(std::string_view word) { return word == "public" || word == "private" || word == "constant"; }
+
 bool isSpecifier(std::string_view word) {
-  return word == "uniform" || word == "varying" || word == "extern" || word == "output";
+  return word == "uniform" || word == "varying" || word == "extern" || word == "output" || isOfMembers(word);
 }
 
 /// Returns the first sentence of a comment, without the characters that draw its frame.
@@ -50,6 +53,8 @@ File Parser::run() {
 void Parser::definition(File& file) {
   const Token& t = here();
   if (takeIf(";")) return;
+  if (t.isName("class") && here(1).kind == TokenKind::Name)
+    return classShaders(file, t.comment ? firstSentence(*t.comment) : std::string());
   if (isRsl2(true)) refuseRsl2(t, inQuotes(t.text));
   const auto kind = t.kind == TokenKind::Name ? shaderKindNamed(t.text) : std::nullopt;
   if (kind) {
@@ -128,6 +133,8 @@ Parser::Specifiers Parser::specifiers() {
       s.output = true;
     } else if (t.text == "extern") {
       s.isExtern = true;
+    } else if (isOfMembers(t.text)) {
+      // nothing to keep
     } else if (const auto base = baseNamed(t.text); base && !s.hasType) {
       s.type.base = *base;
       s.hasType = true;

@@ -68,6 +68,10 @@ class Parser {
   bool beginsSpecifiers() const;
   [[noreturn]] void failNoDefinition();
 
+  // classes.cpp
+  void classShaders(File& file, const std::string& doc);
+  StmtPtr callOf(Function& method, const std::vector<std::string>& arguments, const Token& word);
+
   // statements.cpp
   StmtPtr statement();
   StmtPtr block();

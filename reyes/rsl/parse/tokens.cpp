@@ -129,13 +129,13 @@ bool Parser::isRsl2(bool atFileLevel) const {
   const Token& t = here();
   if (t.kind != TokenKind::Name || here(1).kind != TokenKind::Name) return false;
   constexpr std::string_view kAnywhere[] = {"shader"};
-  constexpr std::string_view kOfFiles[] = {"class", "struct", "public", "private", "constant"};
+  constexpr std::string_view kOfFiles[] = {"struct", "public", "private", "constant"};
   return std::ranges::find(kAnywhere, t.text) != std::end(kAnywhere) ||
          (atFileLevel && std::ranges::find(kOfFiles, t.text) != std::end(kOfFiles));
 }
 
 void Parser::refuseRsl2(const Token& token, std::string_view what) {
-  error(token, fmt::format("{} is of RSL 2 (class shaders), which is not supported", what));
+  error(token, fmt::format("{} is of RSL 2, of which only classes that stand alone are supported", what));
   throw GaveUp{};
 }
 

@@ -74,6 +74,8 @@ Cases functionCases() {
       {"a function within a function",
        "float f(float a) { float g(float b) { return b * 3; } return g(a) + 1; } x = f(s);",
        [](float i) { return 3 * i + 1; }},
+      {"a function within a shader before its definition",
+       "float f() { return g() + 1; } float g() { return s; } x = f();", [](float i) { return i + 1; }},
       {"overloads by the argument",
        "x = f(1) + f(color (1, 2, 3)) * 10;",
        21,

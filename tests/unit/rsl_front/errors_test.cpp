@@ -153,11 +153,17 @@ TEST(Errors, OfExpressionsAreToldWithTheirPlace) {
 
 TEST(Errors, OfRsl2AreOneEach) {
   const auto said = [](const char* what) {
-    return std::string(what) + " is of RSL 2 (class shaders), which is not supported";
+    return std::string(what) + " is of RSL 2, of which only classes that stand alone are supported";
   };
   const auto messages = [](const char* text) { return messagesOf(Front(text).parsed()); };
-  EXPECT_EQ(messages("class a(float x = 1) {\n public void surface(output color Ci, Oi) { x; }\n}"),
-            said("1:1: 'class'"));
+  EXPECT_EQ(messages("class a(float x = 1) { public float f() { return x; } }"),
+            said("1:1: a class that is no surface, displacement, light or volume by its methods"));
+  EXPECT_EQ(messages("class a() { public void surface(output color Ci, Oi; float x) {} }"),
+            "1:1: the renderer calls 'surface' with 2 arguments");
+  EXPECT_EQ(messages("class a() { public void displacement(output point P; output normal N) {}\n"
+                     "public void surface(output color Ci, Oi) { x = ; } }"),
+            "2:48: expected an expression before ';'")
+      << "once";
   EXPECT_EQ(messages("struct a { float b; }\nsurface c() {}"), said("1:1: 'struct'"));
   EXPECT_EQ(messages("surface a(shader b[] = {}) { }"), said("1:11: 'shader'"));
   EXPECT_EQ(messages("surface a() { shader b = getshader(\"c\"); b->d(); }"), said("1:15: 'shader'"));

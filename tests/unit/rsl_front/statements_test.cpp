@@ -110,6 +110,23 @@ TEST(Definitions, AreFunctionsBeforeAndBetweenShaders) {
             "block|");
 }
 
+TEST(Definitions, AreClassesWhoseMethodsAreCalledInTheirOrder) {
+  EXPECT_EQ(fileOf("class a(float k = 1;) { constant float b = k; public void surface(output color Ci, c) {}\n"
+                   "private float f() {} public void begin() {} }"),
+            "surface a|  variable float k|    number 1|  block|    declare|      variable float b|        name k|"
+            "    define|      function void surface|        variable output color c|        block|"
+            "    define|      function float f|        block|    define|      function void begin|        block|"
+            "    expression|      call begin|    expression|      call surface|        name Oi|");
+  EXPECT_EQ(
+      fileOf("class a() { public void lighting(output color Ci, Oi) {} public void surface(output color Ci, Oi) {}\n"
+             "public void displacement(output point P; output normal N) {} }"),
+      "surface a|  block|    define|      function void lighting|        block|    empty|"
+      "    define|      function void displacement|        block|"
+      "    expression|      call displacement|    expression|      call lighting|"
+      "displacement a|  block|    empty|    empty|    define|      function void displacement|        block|"
+      "    expression|      call displacement|");
+}
+
 TEST(Definitions, HaveParametersInAnyOfTheirSpellings) {
   EXPECT_EQ(fileOf("surface a(float x = 1, y = 2; color z = (1, 2, 3);) {}"),
             "surface a|  variable float x|    number 1|  variable float y|    number 2|  variable color z|    tuple|   "
