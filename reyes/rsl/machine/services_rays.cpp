@@ -32,11 +32,18 @@ void transmission(Run& run, const PreparedInstruction& s) {
                              call.giveTriple());
 }
 
-/// occlusion() gives a number, indirectdiffuse() a color. Both take P, N and samples, and settings.
+/// The rays of a hemisphere if a shader does not say how many, as those of the lights that ask for one.
+constexpr int32_t kRaysOfHemisphere = 64;
+
+/// occlusion() gives a number, indirectdiffuse() a color. Both take P, N and samples, and settings. Shaders give 0
+/// samples where a map or a point cloud should answer, and "samples" among the settings for a map.
 void hemisphere(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
-  rsl::HemisphereList list = listed(call, rsl::HemisphereList());
-  if (call.has(2)) list.rays.samples = call.whole(2, "numbers of samples");
+  rsl::HemisphereList list;
+  list.rays.samples = kRaysOfHemisphere;
+  list = listed(call, list);
+  if (const int32_t samples = call.has(2) ? call.whole(2, "numbers of samples") : 0; samples > 0)
+    list.rays.samples = samples;
   list.options.pointCloud = list.pointBased ? list.file : nullptr;
   if (s.of->op == Op::Occlusion)
     list.options.covered = call.giveNumber();

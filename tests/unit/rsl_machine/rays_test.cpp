@@ -34,6 +34,20 @@ TEST_F(Services, TheHemisphereGivesWhatIsCoveredAndWhatArrives) {
   EXPECT_EQ(fake.rayOptions.samples, 4);
 }
 
+TEST_F(Services, NoSamplesOfAHemisphereLeaveTheirNumberToTheList) {
+  const int32_t covered = number(), P = b.global("P", Shape::Triple), N = b.global("N", Shape::Triple);
+  b.emit(Op::Occlusion, {covered}, {P, N, b.number(0)}).settings = {setting("samples", b.number(7))};
+  run();
+  EXPECT_EQ(fake.rayOptions.samples, 7);
+}
+
+TEST_F(Services, AHemisphereWhoseSamplesNobodyGivesHasThoseOfALight) {
+  const int32_t covered = number(), P = b.global("P", Shape::Triple), N = b.global("N", Shape::Triple);
+  b.emit(Op::Occlusion, {covered}, {P, N, b.number(0)});
+  run();
+  EXPECT_EQ(fake.rayOptions.samples, 64);
+}
+
 TEST_F(Services, GatherRunsOneBodyForHitsAndTheOtherForMisses) {
   const int32_t hits = number(), misses = number(), color = triple(), value = number(),
                 P = b.global("P", Shape::Triple);
