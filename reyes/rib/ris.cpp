@@ -90,7 +90,8 @@ Note standsIn(const Request& r, const std::string& substitute, Severity severity
 // Requests that are older than RIS belong here if they name something of RIS.
 bool isRis(const Request& r) {
   if (r.name == "Option" || r.name == "Attribute") return r.args[0].strings[0] == "Ri";
-  if (r.name == "AreaLightSource") return r.args[0].strings[0].find("PxrStd") != std::string::npos;
+  if (r.name == "AreaLightSource")
+    return r.args[0].strings[0].find("PxrStd") != std::string::npos || r.args[0].strings[0] == "PxrAreaLight";
   if (r.name == "Geometry") return r.args[0].strings[0] == "envsphere";
   return translators().contains(r.name);
 }

@@ -9,8 +9,8 @@ namespace tomales::rib {
 
 ParamList emission(const Request& r) {
   const float intensity = number(r, "intensity", 1) * std::exp2(number(r, "exposure", 0));
-  return {param("intensity", ValueType::Float, {intensity}),
-          param("lightcolor", ValueType::Color, color(r, "lightColor", 1))};
+  const char* const name = findParam(r.params, "lightcolor") ? "lightcolor" : "lightColor";  // PxrAreaLight's first
+  return {param("intensity", ValueType::Float, {intensity}), param("lightcolor", ValueType::Color, color(r, name, 1))};
 }
 
 namespace {
@@ -60,6 +60,11 @@ Translation meshLight(const Request& r) {
   return {script.list(), {standsIn(r, "arealight")}};
 }
 
+bool isStdAreaLight(const Request& r) {
+  const std::string& name = r.args[0].strings[0];
+  return name == "PxrAreaLight" || name.find("PxrStdAreaLight") != std::string::npos;
+}
+
 }  // namespace
 
 // Tells lights apart by a part of the name: RenderMan for Maya 19 and 20 name the shader after the light that they
@@ -69,13 +74,13 @@ Translation stdLight(const Request& r, RisState& state) {
   state.areaLight = r;
   if (is("PxrStdEnvMapLight")) return domeLight(r);
   if (is("PxrStdEnvDayLight")) return dayLight(r);
-  if (is("PxrStdAreaLight")) return meshLight(r);
+  if (isStdAreaLight(r)) return meshLight(r);
   return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};
 }
 
 // Skies are not drawn. Those of the two other kinds are lights already.
 Translation envSphere(const Request& r, const RisState& state) {
-  if (!state.areaLight || state.areaLight->args[0].strings[0].find("PxrStdAreaLight") == std::string::npos) return {};
+  if (!state.areaLight || !isStdAreaLight(*state.areaLight)) return {};
   Translation sky = domeLight(*state.areaLight);
   for (Note& n : sky.notes) {
     n.key += " envsphere";

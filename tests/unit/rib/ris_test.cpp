@@ -153,8 +153,8 @@ TEST(Ris, MetalsHaveTheColorOfTheirIndexOrOfTheArtist) {
 
 TEST(Ris, LightsOfPRMan20ShineFromTheGeometryThatFollows) {
   for (const char* light :
-       {"AreaLightSource \"PxrStdAreaLight\" \"a\"", "AreaLightSource \"shaders/PxrStdAreaLightShape1_rfm\" \"a\"",
-        "Light \"PxrMeshLight\" \"a\""})
+       {"AreaLightSource \"PxrStdAreaLight\" \"a\"", "AreaLightSource \"PxrAreaLight\" \"a\"",
+        "AreaLightSource \"shaders/PxrStdAreaLightShape1_rfm\" \"a\"", "Light \"PxrMeshLight\" \"a\""})
     for (const char* shape :
          {"Geometry \"rectlight\"", "Geometry \"spherelight\"", "Geometry \"disklight\"", "Sphere 1 -1 1 360"}) {
       const Reading r(inWorld("AttributeBegin " + std::string(light) + " \"float intensity\" 3 \"float exposure\" 1\n" +
