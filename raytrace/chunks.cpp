@@ -121,10 +121,10 @@ void Chunks::measure(TiledPatch& tiled, Piece& piece) const {
     if (levelOf(static_cast<uint32_t>(o.group), level) != level) continue;  // no ray sees it
     const auto [nu, nv] = piece.rate[index(level)];
     const int u = std::min(nu, kSampled), v = std::min(nv, kSampled);
-    const uint32_t name =
+    const uint32_t key =
         hashCombine(o.sampleKey, tiled.patch, static_cast<uint32_t>(tiled.pieces.size()), static_cast<uint32_t>(level));
-    const int i = static_cast<int>(unitFloat(name) * static_cast<float>(nu - u + 1));
-    const int j = static_cast<int>(unitFloat(hash32(name)) * static_cast<float>(nv - v + 1));
+    const int i = static_cast<int>(unitFloat(key) * static_cast<float>(nu - u + 1));
+    const int j = static_cast<int>(unitFloat(hash32(key)) * static_cast<float>(nv - v + 1));
     const auto within = [](float a, float b, int k, int n) {
       return lerp(a, b, static_cast<float>(k) / static_cast<float>(n));
     };

@@ -220,9 +220,9 @@ class GatherPass {
     return out;
   }
 
-  /// Gathers at some of the sites, which `at` numbers in rising order, and sets their `records`. Returns how many of
-  /// the first sites have their records: all, unless the pass was stopped. finds: null, or set to what each record has
-  /// found.
+  /// Gathers at some of the sites, which `at` numbers in rising order, and sets their `records`. Returns the number n
+  /// such that the sites before the n-th have their records: all, unless the pass was stopped. finds: null, or set to
+  /// what each record has found.
   size_t gatherRecords(const std::vector<Site>& sites, const std::vector<size_t>& at,
                        std::vector<IrradianceRecord>& records, std::vector<BrightFind>* finds,
                        const std::function<void(float)>& progress) {

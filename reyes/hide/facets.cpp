@@ -263,9 +263,9 @@ void FacetTable::fill(const PointRequests& requests, ShadePoints& points) const 
       else
         gathered.readCells(g, a, run, static_cast<int>(i));
       const int ofPiece = vertex ? g.verticesOfPiece() : g.nu * (g.nv + 1), piece = w.index / ofPiece;
-      const uint32_t name = g.pieces[static_cast<size_t>(piece)].sampleKey;
+      const uint32_t key = g.pieces[static_cast<size_t>(piece)].sampleKey;
       for (int k = 0; k < run; ++k, ++i) {
-        const int point = points.add(hashCombine(name, static_cast<uint32_t>(w.index - piece * ofPiece + k))),
+        const int point = points.add(hashCombine(key, static_cast<uint32_t>(w.index - piece * ofPiece + k))),
                   c = a + k + g.nu + 1;
         gathered.side[i] = block[i].side == Side::Back ? 1.0f : -1.0f;
         const auto mean = [&](const float* f) {

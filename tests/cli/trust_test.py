@@ -141,4 +141,10 @@ scene("program.rib", None, 'Procedural "RunProgram" ["touch ran; echo Sphere 1 -
 for name in ("system", "program"):
     t.expect(not runs(f"{name} is refused", [name + ".rib", "--allow-plugins", "--plugin-path", "."], 3, "--allow-system allows them"), f"{name}: plugins are no programs")
     t.expect(runs(f"{name} is allowed", [name + ".rib", "--allow-system"], 0), f"{name}: --allow-system runs it")
+
+# The folder of a scene holds files that are called as libraries of the program.
+for line in subprocess.run(["ldd", t.program], capture_output=True, text=True, check=True).stdout.splitlines():
+    if line.strip().startswith("lib"):
+        t.write(line.split()[0], "no library")
+t.expect_run("libraries are not looked for in the working folder", ["--version"], 0)
 t.finish()

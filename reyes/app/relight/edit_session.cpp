@@ -32,7 +32,7 @@ double shareLeft(const LayerParts& parts) {
 }  // namespace
 
 EditSession::EditSession(EditedLayers layers, const PictureParts& parts)
-    : parts_(parts), layers_(std::move(layers)), order_{.pointer = middleOf(parts.window())} {}
+    : parts_(parts), layers_(std::move(layers)), order_{.pointedAt = middleOf(parts.window())} {}
 
 // Pre: the mutex is locked, as for the next one.
 void EditSession::tellThread() {
@@ -67,7 +67,7 @@ void EditSession::showVariable(const std::string& name) {
 
 void EditSession::pointAt(const ivec2& pixel) {
   const std::lock_guard lock(mutex_);
-  order_.pointer = pixel;
+  order_.pointedAt = pixel;
 }
 
 void EditSession::shadeOnly(const std::optional<PixelRect>& pixels) {

@@ -29,7 +29,7 @@ std::optional<WorkStep> WorkOrder::nextPart(size_t from, size_t to, const Edited
   for (size_t layer = from; layer < to; ++layer)
     for (size_t part = 0; part < parts.count(); ++part) {
       if (!layers[layer].parts.isOld(part) || (only && !only->overlaps(parts[part]))) continue;
-      const int64_t distance = squaredDistance(parts[part], pointer);
+      const int64_t distance = squaredDistance(parts[part], pointedAt);
       if (distance >= least) continue;
       least = distance;
       best = {layer, part};

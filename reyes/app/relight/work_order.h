@@ -17,7 +17,7 @@ struct WorkStep {
 };
 
 struct WorkOrder {
-  ivec2 pointer;                    ///< The raster pixel near which parts come first.
+  ivec2 pointedAt;                  ///< The raster pixel near which parts come first.
   std::optional<PixelRect> only{};  ///< Nothing outside of these pixels is shaded.
   std::optional<PixelRect> toGather{};
   bool wantsWhole = true;
