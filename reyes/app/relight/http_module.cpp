@@ -1,6 +1,5 @@
 // The module behind reyes/app/relight/http_server.h. The program loads it for `tomales relight` alone, because
-// cpp-httplib brings a library of cryptography, which takes a sixth of the time in which the program starts
-// (docs/measured/README.md).
+// cpp-httplib brings OpenSSL, which would take a sixth of the time in which the program starts (docs/decisions/0033).
 #include <fmt/format.h>
 
 #include <httplib.h>
