@@ -31,6 +31,11 @@ Translation integrator(const Request& r, RisState& state) {
 
 Translation ignored(const Request& r, RisState&) { return {{}, {note(r, "is not available: ignored")}}; }
 
+Translation light(const Request& r, RisState& state) {
+  state.hasLight = true;
+  return risLight(r);
+}
+
 Translation bxdf(const Request& r, RisState& state) {
   state.bxdf = r;
   return risBxdf(r, state.patterns);
@@ -61,7 +66,7 @@ Translation displayFilter(const Request& r, RisState& state) {
 const std::unordered_map<std::string_view, Translator>& translators() {
   static const std::unordered_map<std::string_view, Translator> table = {
       {"Bxdf", bxdf},
-      {"Light", [](const Request& r, RisState&) { return risLight(r); }},
+      {"Light", light},
       {"AreaLightSource", stdLight},
       {"Geometry", [](const Request& r, RisState& state) { return envSphere(r, state); }},
       {"Option", [](const Request& r, RisState&) { return riValues(r); }},

@@ -27,6 +27,7 @@ struct RisState {
   Patterns patterns;
   std::optional<Request> areaLight;  ///< The latest AreaLightSource of PRMan 19 and 20; its shape may follow.
   std::optional<Request> bxdf;       ///< The latest Bxdf.
+  bool hasLight = false;             ///< True after a light, also one that is not available.
   bool hasIntegrator = false;        ///< True after an Integrator other than PxrDefault.
 };
 

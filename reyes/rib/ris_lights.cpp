@@ -100,19 +100,18 @@ Translation risLight(const Request& r) {
 }
 
 Translation headLamp(const RisState& state) {
-  if (!state.bxdf || state.hasIntegrator) return {};
+  if (!state.bxdf || state.hasIntegrator || state.hasLight || state.areaLight) return {};
   const Request& r = *state.bxdf;
-  return {
-      Script(r)
-          .say("TransformBegin")
-          .say("CoordSysTransform", {string("camera")})
-          .say("LightSource", {string("distantlight"), string("PxrDefault")})
-          .say("TransformEnd")
-          .list(),
-      {{"PxrDefault",
-        "there is neither a light nor an Integrator that needs one: a distantlight at the eye stands in for that of "
-        "PxrDefault",
-        r.where, Severity::Warning, "light-none"}}};
+  return {Script(r)
+              .say("TransformBegin")
+              .say("CoordSysTransform", {string("camera")})
+              .say("LightSource", {string("distantlight"), string("PxrDefault")})
+              .say("TransformEnd")
+              .list(),
+          {{"PxrDefault",
+            "there is neither a light nor an Integrator that needs one: a distantlight at the eye stands in for the "
+            "lamp of PxrDefault",
+            r.where, Severity::Warning, "light-none"}}};
 }
 
 }  // namespace tomales::rib

@@ -77,17 +77,24 @@ std::string includeLines(const Sources& sources, Place place) {
 
 }  // namespace
 
+bool Messages::isTold(Severity severity, Place place, const std::string& text) const {
+  return std::ranges::any_of(
+      all_, [&](const Message& m) { return m.severity == severity && m.place == place && m.text == text; });
+}
+
 void Messages::error(Place place, std::string text, int32_t length) {
+  if (isTold(Severity::Error, place, text)) return void(keeps_ = false);
   ++errors_;
   add(Severity::Error, place, std::move(text), length);
 }
 
 void Messages::missing(Place place, std::string text, int32_t length) {
-  ++missing_;
+  if (!isTold(Severity::Warning, place, text)) ++missing_;
   warning(place, std::move(text), length);
 }
 
 void Messages::warning(Place place, std::string text, int32_t length) {
+  if (isTold(Severity::Warning, place, text)) return void(keeps_ = false);
   ++warnings_;
   add(Severity::Warning, place, std::move(text), length);
 }

@@ -14,6 +14,7 @@ struct Place {
   int32_t file = -1;  ///< An index into Sources::files.
   int32_t line = 0, column = 0;
   int32_t expansion = -1;  ///< The macro whose text this is, an index into Sources::expansions; -1 if none.
+  bool operator==(const Place&) const = default;
 };
 
 struct SourceFile {
@@ -59,6 +60,7 @@ struct Message {
 };
 
 /// The problems of a shader, in the order in which they were found. A note belongs to the message before it.
+/// Each is kept once, since a class that is a shader of two kinds is checked twice.
 class Messages {
  public:
   void error(Place place, std::string text, int32_t length = 1);
@@ -78,6 +80,7 @@ class Messages {
   std::string rendered(const Sources& sources) const;
 
  private:
+  bool isTold(Severity severity, Place place, const std::string& text) const;
   void add(Severity severity, Place place, std::string text, int32_t length);
   std::vector<Message> all_;
   int errors_ = 0, warnings_ = 0, notes_ = 0, missing_ = 0;

@@ -121,16 +121,17 @@ void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslF
 }
 
 /// Tells a user whose folder has a shader with a name of RISpec's, such as "plastic", which of the two is used.
-/// `because` ends the sentence.
-void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& searchPath,
-                                              const std::string& beside, const std::string& because) {
-  const std::string file = fileOfStandardName(used, searchPath, beside);
+/// `because` follows the names. `hasOther` tells that --standard-shaders can bring the other one.
+void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& file, const std::string& because,
+                                              bool hasOther) {
   if (file.empty()) return;
   const bool isOurs = builtIn.count(&used) > 0;
+  const char* const other =
+      isOurs ? " (--standard-shaders files would take this one)" : " (--standard-shaders built-in would take that)";
   log.report(Severity::Note, "shader-standard", {std::make_shared<const std::string>(file), 0},
-             fmt::format("\"{}\" is a shader of RISpec's: {}{} (--standard-shaders {})", used.name,
+             fmt::format("\"{}\" is a shader of RISpec's: {}{}{}", used.name,
                          isOurs ? "the built-in one is used, not this file" : "this file is used, not the built-in one",
-                         because, isOurs ? "files would take this one" : "built-in would take that"),
+                         because, hasOther ? other : ""),
              used.name);
 }
 
@@ -144,32 +145,36 @@ std::string ShaderRegistry::Impl::fileOfStandardName(const TmShader& shader, con
   return {};
 }
 
-const TmShader* ShaderRegistry::Impl::shaderOfStandardName(const TmShader& ours, const std::string& searchPath,
-                                                           const std::string& beside) {
-  if (fileOfStandardName(ours, searchPath, beside).empty()) return nullptr;
+const TmShader* ShaderRegistry::Impl::ofStandardName(const TmShader& ours, const std::string& searchPath,
+                                                     const std::string& beside) {
+  const std::string file = fileOfStandardName(ours, searchPath, beside);
+  if (file.empty() || !builtIn.count(&ours) || standardFromFiles) {
+    tellOfStandardName(ours, file);
+    return &ours;
+  }
   const auto kind = static_cast<TmKind>(ours.kind);
   const RslFound found = findRslShader(ours.name, kind, textFolders(searchPath, beside), functionsAlong(searchPath));
-  const std::string further = found.shader ? furtherParameter(*found.shader, ours) : "";
-  if (further.empty()) return nullptr;
-  tellOfStandardName(*keep(found), searchPath, beside, fmt::format(", which has no parameter \"{}\"", further));
-  return found.shader;
+  if (!found.shader) {
+    const bool compiles = found.problem.starts_with("has no");
+    tellOfStandardName(ours, file, (compiles ? ", which " : ", which does not compile:\n") + found.problem, false);
+    return &ours;
+  }
+  const std::string further = furtherParameter(*found.shader, ours);
+  const TmShader& used = further.empty() ? ours : *keep(found);
+  tellOfStandardName(used, found.file, further.empty() ? "" : fmt::format(", which has no parameter \"{}\"", further));
+  return &used;
 }
 
 const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kind, const std::string& searchPath,
                                              const std::string& beside) {
   const TmShader* const own = known(name, kind);
-  if (own && comesBeforeTexts(*own)) {
-    if (builtIn.count(own) && !standardFromFiles)
-      if (const TmShader* s = shaderOfStandardName(*own, searchPath, beside)) return s;
-    tellOfStandardName(*own, searchPath, beside);
-    return own;
-  }
+  if (own && comesBeforeTexts(*own)) return ofStandardName(*own, searchPath, beside);
   if (!leavesFolders(name))
     for (const std::string& file : pluginFiles(name, trust.folders))
       if (load(file))
         if (const TmShader* s = known(name, kind); s && s != own) return s;
   if (const TmShader* s = findText(name, kind, searchPath, beside)) {
-    if (own) tellOfStandardName(*s, searchPath, beside);
+    if (own) tellOfStandardName(*s, fileOfStandardName(*s, searchPath, beside));
     return s;
   }
   if (own) return own;

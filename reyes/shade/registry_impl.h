@@ -67,14 +67,14 @@ struct ShaderRegistry::Impl {
   }
   void tellOfOtherFolder(const std::string& name, const RslFound& found);
   const TmShader* keep(const RslFound& found);
-  void tellOfStandardName(const TmShader& used, const std::string& searchPath, const std::string& beside,
-                          const std::string& because = {});
+  void tellOfStandardName(const TmShader& used, const std::string& file, const std::string& because = {},
+                          bool hasOther = true);
   /// Returns the file that is called as a shader of RISpec's; empty if there is none, or if the shader is not of those.
   std::string fileOfStandardName(const TmShader& shader, const std::string& searchPath,
                                  const std::string& beside) const;
-  /// Returns the shader of that file if it has parameters that ours lacks: then it is another one, which a scene beside
-  /// it means.
-  const TmShader* shaderOfStandardName(const TmShader& ours, const std::string& searchPath, const std::string& beside);
+  /// Returns the shader of that file if it has parameters that ours lacks, since such a file is another shader, which
+  /// the scene beside it means. Returns ours otherwise.
+  const TmShader* ofStandardName(const TmShader& ours, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});
     return it == shaders.end() ? nullptr : it->second;

@@ -6,7 +6,9 @@ import struct
 import zlib
 
 SCANLINES = {0: 1, 2: 1, 3: 16}  # These are the rows of a chunk, by compression: none, ZIPS, ZIP.
-NOT_SCANLINES = 0x1a00           # These flags of the version mean tiles, deep pixels and several parts.
+MAGIC = b"\x76\x2f\x31\x01"
+PARTS = 0x1000                   # This flag of the version means several parts.
+NOT_SCANLINES = 0xa00 | PARTS    # These mean tiles and deep pixels.
 NUMBERS = {0: "I", 1: "e", 2: "f"}
 
 
@@ -31,6 +33,7 @@ def _channels(attribute):
     out, at = [], 0
     while attribute[at]:
         name, at = _text(attribute, at)
+        assert struct.unpack_from("<ii", attribute, at + 8) == (1, 1), f"{name} has not all pixels"
         out.append((name, NUMBERS[struct.unpack_from("<i", attribute, at)[0]]))
         at += 16
     return out
@@ -49,25 +52,32 @@ def _unzipped(packed, size):
 def _order(name):
     """Orders channels as oiiotool does: by layer, and red, green, blue and alpha first in each."""
     layer, _, part = name.rpartition(".")
-    return layer, "RGBA".find(part.upper()) % 5, part
+    return layer, {"R": 0, "G": 1, "B": 2, "A": 3}.get(part.upper(), 4), part
+
+
+def _only_header(path):
+    """Returns the header of a file of one part."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:4] == MAGIC and not struct.unpack_from("<I", data, 4)[0] & PARTS, path
+    return _header(data)[0]
 
 
 def texts(path):
     """Returns {attribute: text} of the attributes that are texts."""
-    return {name: value.decode() for name, (kind, value) in _header(pathlib.Path(path).read_bytes())[0].items() if kind == "string"}
+    return {name: value.decode() for name, (kind, value) in _only_header(path).items() if kind == "string"}
 
 
 def window(path):
     """Returns x, y, width and height of the data window."""
-    x0, y0, x1, y1 = struct.unpack("<4i", _header(pathlib.Path(path).read_bytes())[0]["dataWindow"][1])
+    x0, y0, x1, y1 = struct.unpack("<4i", _only_header(path)["dataWindow"][1])
     return x0, y0, x1 - x0 + 1, y1 - y0 + 1
 
 
 def read(path, wanted=None):
     """Returns the display window's size and {(x, y) within it: numbers} of the data window, with the channels in the order of `wanted`, or of
-    oiiotool. Returns None if the file is of a layout that is not read here."""
+    oiiotool; all of `wanted` must be there. Returns None if the file is of a layout that is not read here."""
     data = pathlib.Path(path).read_bytes()
-    if data[:4] != b"\x76\x2f\x31\x01" or struct.unpack_from("<I", data, 4)[0] & NOT_SCANLINES:
+    if data[:4] != MAGIC or struct.unpack_from("<I", data, 4)[0] & NOT_SCANLINES:
         return None
     header, at = _header(data)
     channels = _channels(header["channels"][1])

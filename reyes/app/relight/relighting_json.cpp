@@ -80,7 +80,7 @@ Json Relighting::offeredShader(const std::string& kind, const std::string& name)
 }
 
 Json Relighting::status() const {
-  const WorkStatus::Now now = status_.now();
+  const WorkStatus::Now now = status_.now();  // before the layers, which are done if nothing is being done
   Json out = session_->status();
   out["doing"] = now.doing;
   out["done"] = now.done;

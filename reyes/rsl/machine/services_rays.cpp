@@ -40,10 +40,11 @@ constexpr int32_t kRaysOfHemisphere = 64;
 void hemisphere(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   rsl::HemisphereList list;
-  list.rays.samples = kRaysOfHemisphere;
+  list.rays.samples = 0;
   list = listed(call, list);
   if (const int32_t samples = call.has(2) ? call.whole(2, "numbers of samples") : 0; samples > 0)
     list.rays.samples = samples;
+  if (list.rays.samples <= 0) list.rays.samples = kRaysOfHemisphere;
   list.options.pointCloud = list.pointBased ? list.file : nullptr;
   if (s.of->op == Op::Occlusion)
     list.options.covered = call.giveNumber();

@@ -53,8 +53,11 @@ File Parser::run() {
 void Parser::definition(File& file) {
   const Token& t = here();
   if (takeIf(";")) return;
-  if (t.isName("class") && here(1).kind == TokenKind::Name)
-    return classShaders(file, t.comment ? firstSentence(*t.comment) : std::string());
+  if (t.isName("class")) {
+    take();
+    if (here().kind != TokenKind::Name) fail("expected the name of a class");
+    return classShaders(file, t, t.comment ? firstSentence(*t.comment) : std::string());
+  }
   if (isRsl2(true)) refuseRsl2(t, inQuotes(t.text));
   const auto kind = t.kind == TokenKind::Name ? shaderKindNamed(t.text) : std::nullopt;
   if (kind) {

@@ -69,8 +69,9 @@ class Parser {
   [[noreturn]] void failNoDefinition();
 
   // classes.cpp
-  void classShaders(File& file, const std::string& doc);
-  StmtPtr callOf(Function& method, const std::vector<std::string>& arguments, const Token& word);
+  void classShaders(File& file, const Token& word, const std::string& doc);
+  void checkMethod(const Function& method, const std::vector<std::string>& arguments);
+  StmtPtr callOf(const Function& method, const std::vector<std::string>& arguments, const Token& word);
 
   // statements.cpp
   StmtPtr statement();

@@ -256,12 +256,14 @@ TEST(Ris, WorldsWithoutLightsAndIntegratorHaveALampAtTheEye) {
     const ShaderCall& lamp = r.scene().lights[0]->shader;
     EXPECT_EQ(lamp.name, "distantlight");
     expectNear(vec3(lamp.worldFromShader.at(0) * vec4(0, 0, 0, 1)), {0, 0, -9});
+    expectNear(vec3(lamp.worldFromShader.at(0) * vec4(0, 0, 1, 0)), {0, 0, 1});
     for (const size_t i : {0u, 1u}) EXPECT_EQ(r.attributes(i).lights, LightList{0}) << "it comes after them";
   }
   const auto lights = [](const std::string& rib) { return Reading(rib).scene().lights.size(); };
   EXPECT_EQ(lights(inWorld(kSphere)), 0u) << "a world of shaders in RSL";
   EXPECT_EQ(lights("Integrator \"PxrDirectLighting\" \"i\" " + inWorld(bxdf + kSphere)), 0u);
   EXPECT_EQ(lights(inWorld(bxdf + kSphere + "Light \"PxrDomeLight\" \"sky\"")), 1u);
+  EXPECT_EQ(lights(inWorld(bxdf + kSphere + "Light \"PxrFancyLight\" \"f\"")), 0u) << "it has one, which is missing";
 }
 
 TEST(Ris, SourcesOfChannelsLoseTheirTypeAndPathsBecomeOutputs) {

@@ -159,7 +159,14 @@ TEST(Errors, OfRsl2AreOneEach) {
   EXPECT_EQ(messages("class a(float x = 1) { public float f() { return x; } }"),
             said("1:1: a class that is no surface, displacement, light or volume by its methods"));
   EXPECT_EQ(messages("class a() { public void surface(output color Ci, Oi; float x) {} }"),
-            "1:1: the renderer calls 'surface' with 2 arguments");
+            "1:25: the renderer calls 'surface' with Ci and Oi alone");
+  EXPECT_EQ(messages("class a() { public void surface(output color Ci; output float o) {} }"),
+            "1:25: the renderer gives Oi to 'surface', a color, but this is a float");
+  EXPECT_EQ(messages("class a() { public void surface() {} public void surface(output color Ci) {} }"),
+            "1:50: the renderer calls one 'surface' alone");
+  EXPECT_EQ(messages("class (float x = 1) {}"), "1:7: expected the name of a class before '('");
+  EXPECT_EQ(messages("class a() { public void opacity(output color Oi) {} }"),
+            said("1:1: a class that is no surface, displacement, light or volume by its methods"));
   EXPECT_EQ(messages("class a() { public void displacement(output point P; output normal N) {}\n"
                      "public void surface(output color Ci, Oi) { x = ; } }"),
             "2:48: expected an expression before ';'")

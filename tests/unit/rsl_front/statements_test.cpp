@@ -120,11 +120,26 @@ TEST(Definitions, AreClassesWhoseMethodsAreCalledInTheirOrder) {
   EXPECT_EQ(
       fileOf("class a() { public void lighting(output color Ci, Oi) {} public void surface(output color Ci, Oi) {}\n"
              "public void displacement(output point P; output normal N) {} }"),
-      "surface a|  block|    define|      function void lighting|        block|    empty|"
+      "surface a|  block|    define|      function void lighting|        block|"
+      "    define|      function void surface|        variable output color Ci|        variable output color Oi|"
+      "        block|"
       "    define|      function void displacement|        block|"
       "    expression|      call displacement|    expression|      call lighting|"
       "displacement a|  block|    empty|    empty|    define|      function void displacement|        block|"
       "    expression|      call displacement|");
+}
+
+TEST(Definitions, OfClassesMayCallTheirOwnMethods) {
+  EXPECT_EQ(
+      fileOf("class a() { public void diffuselighting(output color Ci, o) {} public void opacity(output color Oi) {}\n"
+             "public void prelighting(output color Ci, Oi) { color x; opacity(Oi); opacity(x); } }"),
+      "surface a|  block|    define|      function void diffuselighting|        variable output color o|"
+      "        block|    define|      function void opacity|        block|"
+      "    define|      function void prelighting|        block|          declare|            variable color x|"
+      "          expression|            call opacity|"
+      "          expression|            call opacity|              name x|"
+      "    expression|      call opacity|    expression|      call prelighting|"
+      "    expression|      call diffuselighting|        name Oi|");
 }
 
 TEST(Definitions, HaveParametersInAnyOfTheirSpellings) {

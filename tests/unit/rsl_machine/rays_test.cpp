@@ -43,7 +43,7 @@ TEST_F(Services, NoSamplesOfAHemisphereLeaveTheirNumberToTheList) {
 
 TEST_F(Services, AHemisphereWhoseSamplesNobodyGivesHasThoseOfALight) {
   const int32_t covered = number(), P = b.global("P", Shape::Triple), N = b.global("N", Shape::Triple);
-  b.emit(Op::Occlusion, {covered}, {P, N, b.number(0)});
+  b.emit(Op::Occlusion, {covered}, {P, N, b.number(0)}).settings = {setting("samples", b.number(0))};
   run();
   EXPECT_EQ(fake.rayOptions.samples, 64);
 }
