@@ -1,9 +1,13 @@
 """Tests models that no modeller should write, in every format that has such corners: each must give a picture or a message."""
-import json
 import math
+import pathlib
+import sys
 
 from models import Gltf, collada, fbx, obj, ply, png, stl
 from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+import exr  # noqa: E402
 
 t = Suite()
 square = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
@@ -14,13 +18,13 @@ def judge(what, name, model, expected, *options):
     """Imports and renders a model. `expected` is "picture" (something is seen), "message" (exit code 2), or "either", which may be an empty
     picture too."""
     t.write(name, model)
-    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=3)  # Assimp does not end on some files.
+    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=1)  # Assimp does not end on some files.
     codes = {"picture": (0,), "message": (2,), "either": (0, 2, 3)}[expected]
     good = made.returncode in codes and (made.stderr != "" or made.returncode == 0)
     told = f"{what}, {name} {' '.join(options)}: {made.returncode} {made.stderr[:300]}"
     if good and made.returncode != 2:
         drawn = t.run("odd.rib", "-o", "odd.exr", "--format", "32x24")
-        seen = max((c["max"] for c in json.loads(t.run("info", "--json", "odd.exr").stdout)["channels"]), default=0) if drawn.returncode in (0, 3) else 0
+        seen = max(map(max, exr.read(t.folder / "odd.exr")[1].values())) if drawn.returncode in (0, 3) else 0
         good = drawn.returncode in (0, 3) and (seen > 0 or expected != "picture" or drawn.stderr != "")
         told += f" then {drawn.returncode}, brightest {seen} {drawn.stderr[:300]}"
     t.expect(good, told)

@@ -161,12 +161,24 @@ TEST(Messages, PassNoControlBytesToATerminal) {
 TEST(Messages, BeyondTheMostAreCounted) {
   Messages messages;
   for (int i = 0; i < 30; ++i) {
-    messages.error({}, "e");
-    messages.note({}, "n");
+    messages.error({.line = i}, "e");
+    messages.note({.line = i}, "n");
   }
   EXPECT_EQ(messages.errorCount(), 30);
   EXPECT_EQ(messages.all().size(), 40u);
   EXPECT_NE(messages.rendered(Sources{}).find("10 more errors are not shown"), std::string::npos);
+}
+
+TEST(Messages, AreToldOnceWithTheirNotes) {
+  Messages messages;
+  for (int i = 0; i < 2; ++i) {
+    messages.error({.line = 1}, "e");
+    messages.note({.line = 2}, "n");
+    messages.missing({.line = 3}, "m");
+  }
+  EXPECT_EQ(messages.errorCount(), 1);
+  EXPECT_EQ(messages.missingCount(), 1);
+  EXPECT_EQ(messages.all().size(), 3u);
 }
 
 TEST(NearNames, AreTheNearestFirst) {
