@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-// ctest runs the tests of one program at the same time. Each process has a folder for temporary files of its own, so
-// that two tests of a fixture may write files of the same name. It is no TemporaryFolder (reyes/base), which child
+// ctest runs the suites of one program at the same time. Each process has a folder for temporary files of its own, so
+// that two suites of a fixture may write files of the same name. It is no TemporaryFolder (reyes/base), which child
 // processes that a test ends abruptly would remove. It comes before GoogleTest, which makes the parameters of tests
 // when it starts: some of them are the names of files.
 int main(int argc, char** argv) {

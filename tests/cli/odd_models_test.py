@@ -18,7 +18,7 @@ def judge(what, name, model, expected, *options):
     """Imports and renders a model. `expected` is "picture" (something is seen), "message" (exit code 2), or "either", which may be an empty
     picture too."""
     t.write(name, model)
-    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=1)  # Assimp does not end on some files.
+    made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=3)  # Assimp does not end on some files.
     codes = {"picture": (0,), "message": (2,), "either": (0, 2, 3)}[expected]
     good = made.returncode in codes and (made.stderr != "" or made.returncode == 0)
     told = f"{what}, {name} {' '.join(options)}: {made.returncode} {made.stderr[:300]}"

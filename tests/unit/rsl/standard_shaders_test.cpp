@@ -85,7 +85,7 @@ displacement bumpy(float Km = 1; string texturename = "") {
 }
 )RSL";
 
-/// Returns the name of a file of this process, since ctest runs several of these tests at once.
+/// Returns the name of a file of this process, since ctest runs several of these suites at once.
 std::string ownFile(const char* ending) { return test::temporary(std::string("tomales_standard_shaders") + ending); }
 
 /// A stage that stands by itself, so that a test may have two.

@@ -1,5 +1,5 @@
 // Pictures that tests make for shaders to look up. OpenEXR writes them, not OpenImageIO: a program that is linked with
-// that library takes half a CPU second to start, and ctest starts one for each test.
+// that library takes half a CPU second to start, and ctest starts one for each suite.
 #pragma once
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
