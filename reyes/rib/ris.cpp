@@ -37,7 +37,7 @@ Translation light(const Request& r, RisState& state) {
 }
 
 Translation bxdf(const Request& r, RisState& state) {
-  state.bxdf = r;
+  if (!state.bxdf) state.bxdf = r;
   return risBxdf(r, state.patterns);
 }
 

@@ -26,7 +26,7 @@ using Patterns = std::map<std::string, Request>;
 struct RisState {
   Patterns patterns;
   std::optional<Request> areaLight;  ///< The latest AreaLightSource of PRMan 19 and 20; its shape may follow.
-  std::optional<Request> bxdf;       ///< The latest Bxdf.
+  std::optional<Request> bxdf;       ///< The first Bxdf.
   bool hasLight = false;             ///< True after a light, also one that is not available.
   bool hasIntegrator = false;        ///< True after an Integrator other than PxrDefault.
 };
@@ -34,8 +34,8 @@ struct RisState {
 bool isRis(const Request& request);
 /// Pre: isRis(request).
 Translation translateRis(const Request& request, RisState& state);
-/// Returns what lights a world without lights: the lamp at the eye of PxrDefault, which is the Integrator where none is
-/// named. Empty if another one is, or if nothing has a Bxdf.
+/// Returns the lamp at the eye of PxrDefault, which lights a world without lights. PxrDefault is the Integrator where
+/// none is named. Empty if another one is, or if nothing has a Bxdf.
 Translation headLamp(const RisState& state);
 
 /// Returns the name that Tomales has for the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its

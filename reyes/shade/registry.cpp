@@ -29,6 +29,10 @@ bool isOfSpecification(std::string_view name) {
 
 namespace {
 
+/// Tells whether the file compiles, though it has no shader of that name and kind.
+bool compiles(const RslFound& found) { return found.problem.starts_with("has no"); }
+std::string whyNot(const RslFound& found) { return (compiles(found) ? "" : "does not compile:\n") + found.problem; }
+
 /// Returns the name of a parameter that the first shader has and the second lacks; empty if there is none.
 std::string furtherParameter(const TmShader& shader, const TmShader& other) {
   std::set<std::string_view> known;
@@ -97,9 +101,8 @@ const TmShader* ShaderRegistry::Impl::findText(const std::string& name, TmKind k
     if (toldOf.insert(where + what).second) refuseText(where, what);
   };
   if (!found.problem.empty()) {
-    const bool compiles = found.problem.starts_with("has no");
-    tell(found.file, (compiles ? "" : "does not compile:\n") + found.problem);
-    if (!compiles) broken[{name, kind, searchPath, beside}] = found.file;
+    tell(found.file, whyNot(found));
+    if (!compiles(found)) broken[{name, kind, searchPath, beside}] = found.file;
   }
   if (!found.remark.empty()) tell(name, found.remark);
   if (found.shader) tellOfOtherFolder(name, found);
@@ -155,8 +158,7 @@ const TmShader* ShaderRegistry::Impl::ofStandardName(const TmShader& ours, const
   const auto kind = static_cast<TmKind>(ours.kind);
   const RslFound found = findRslShader(ours.name, kind, textFolders(searchPath, beside), functionsAlong(searchPath));
   if (!found.shader) {
-    const bool compiles = found.problem.starts_with("has no");
-    tellOfStandardName(ours, file, (compiles ? ", which " : ", which does not compile:\n") + found.problem, false);
+    tellOfStandardName(ours, file, ", which " + whyNot(found), false);
     return &ours;
   }
   const std::string further = furtherParameter(*found.shader, ours);

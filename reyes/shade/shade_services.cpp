@@ -1,4 +1,4 @@
-// What a ShadeServices without these services answers.
+// The answers of a ShadeServices that lacks these services.
 #include "reyes/shade_services.h"
 
 namespace tomales {

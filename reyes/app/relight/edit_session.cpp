@@ -24,11 +24,6 @@ bool mayBeLinearElsewhere(const EditState& a, const EditState& b) {
 
 ivec2 middleOf(const PixelRect& window) { return {window.x0 + window.width() / 2, window.y0 + window.height() / 2}; }
 
-/// Returns the share of a layer that is to be shaded.
-double shareLeft(const LayerParts& parts) {
-  return static_cast<double>(parts.old()) / static_cast<double>(parts.count());
-}
-
 }  // namespace
 
 EditSession::EditSession(EditedLayers layers, const PictureParts& parts)
@@ -116,7 +111,7 @@ Json EditSession::status() const {
     layers.push_back({{"version", parts.wanted()},
                       {"unit", {unit.x, unit.y, unit.z}},
                       {"old", parts.areOld()},
-                      {"left", shareLeft(parts)}});
+                      {"left", parts.shareOld()}});
   }
   for (const PixelRect& r : gathered_) gathered.push_back(Json::array({r.x0, r.y0, r.x1, r.y1}));
   return {{"present", jsonOf(layers_.present())},
@@ -125,7 +120,7 @@ Json EditSession::status() const {
           {"variable",
            {{"name", layers_.variable()},
             {"version", layers_[variable].parts.wanted()},
-            {"left", shareLeft(layers_[variable].parts)}}},
+            {"left", layers_[variable].parts.shareOld()}}},
           {"notLinear", notLinear_},
           {"stale", stale_},
           {"gathered", gathered},

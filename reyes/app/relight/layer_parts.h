@@ -27,6 +27,8 @@ class LayerParts {
   bool areOld() const { return old() > 0; }
   size_t old() const { return held_.size() - static_cast<size_t>(std::ranges::count(held_, wanted_)); }
   size_t count() const { return held_.size(); }
+  /// Returns the share of the parts that are to be shaded.
+  double shareOld() const { return static_cast<double>(old()) / static_cast<double>(count()); }
   void take(size_t part, uint32_t number) { held_[part] = number; }
   /// Says that all parts have been lost.
   void forgetAll() { std::ranges::fill(held_, 0u); }

@@ -25,7 +25,7 @@ class LayerSum {
   std::string objectAt(int x, int y);
 
   EditState edit_;
-  std::vector<vec3> weights_;  ///< Of the layers but the last.
+  std::vector<vec3> weights_;  ///< Each layer but the last has one.
   const LayerStore& layers_;
   RelitShot& shot_;
   std::map<size_t, std::shared_ptr<const DeepTile>> buckets_;

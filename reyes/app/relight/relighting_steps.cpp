@@ -83,7 +83,7 @@ ShownTiles Relighting::tilesOf(const WorkStep& step, const RelitLayer& layer) {
 void Relighting::shadePart(const WorkStep& step) {
   ShotJob& job = jobFor(step.edit, step.variable);
   const RelitLayer layer = session_->layer(step.layer);
-  status_.tell(layer.name, 1 - static_cast<float>(layer.parts.old()) / static_cast<float>(parts_->count()));
+  status_.tell(layer.name, static_cast<float>(1 - layer.parts.shareOld()));
   const PixelRect& part = (*parts_)[step.part];
   if (part.width() <= 0 || part.height() <= 0) return;
   const std::string lights = layer.lights.value_or("");

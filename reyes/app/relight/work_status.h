@@ -1,4 +1,4 @@
-// What is being done, for pages. Threads: any.
+// The work that a page is told of: a name, and how much of it is done. Threads: any.
 #pragma once
 #include <mutex>
 #include <string>

@@ -53,8 +53,8 @@ bool isReplaced(const Called& c, const Stmt& body) {
   return false;
 }
 
-/// The methods without which a class is no shader of a kind. A surface comes first, which has those of a displacement
-/// too.
+/// Returns the kinds of shaders that a class is by its methods. A surface comes first, which has those of a
+/// displacement too.
 std::vector<ShaderKind> kindsOf(const Stmt& body) {
   std::vector<ShaderKind> out;
   if (hasMethod(body, {"surface", "lighting", "diffuselighting", "specularlighting"}))
@@ -115,7 +115,7 @@ class SharedVariables {
   std::vector<std::pair<size_t, std::string>> shared_;  ///< Places among the parameters, rising, and names.
 };
 
-/// What a second form of the class does not read is read by the first, or has been reported.
+/// Keeps a second form of the class from warnings: the first form has had them.
 void withoutWarnings(Shader& s) {
   for (const auto& p : s.parameters) p->used = true;
   for (const StmtPtr& part : s.body->body)
