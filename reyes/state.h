@@ -45,9 +45,11 @@ struct ShaderCall {
   Motion worldFromShader;  ///< The CTM at the request: points among the parameters are given in that space.
   SourceLoc where;
 
-  /// Equal calls shade alike, wherever they are written.
+  /// Equal calls shade alike. The folder of the file in which they are written is a part of that, as a shader may lie
+  /// beside it.
   bool operator==(const ShaderCall& o) const {
-    return name == o.name && params == o.params && worldFromShader == o.worldFromShader;
+    return name == o.name && params == o.params && worldFromShader == o.worldFromShader &&
+           (where.file == o.where.file || where.folder() == o.where.folder());
   }
 };
 

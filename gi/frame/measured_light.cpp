@@ -3,6 +3,7 @@
 #include "gi/frame/gather_places.h"
 #include "gi/frame/indirect.h"
 #include "gi/frame/state.h"
+#include "gi/photons/passes.h"
 #include "gi/photons/sources.h"
 #include "reyes/base/checksum.h"
 #include "reyes/base/parallel.h"
@@ -11,17 +12,55 @@
 #include "reyes/base/stop.h"
 
 namespace tomales {
+
+template <class A>
+void fields(A& a, PhotonSums& x) {
+  auto& [passes, weights, sums] = x;
+  each(a, passes, weights, sums);
+}
+
+/// What has been counted, and is kept for a run that resumes.
+struct CountedPhotons {
+  uint64_t passes = 0;
+  int64_t planned = 0,
+          sent = 0;  ///< Each light sends whole photons, so a pass may send a few more or fewer than planned.
+  PhotonSums sums{};
+};
+
+template <class A>
+void fields(A& a, CountedPhotons& x) {
+  auto& [passes, planned, sent, sums] = x;
+  each(a, passes, planned, sent, sums);
+}
+
 namespace {
 
-/// Photons of one pass. The fewer there are, the more often radii shrink, and the more often the grid is built.
-constexpr int64_t kPhotonsOfPass = 1 << 17;
-/// The radius of a disk in the first pass, over that of its micropolygon; and alpha. 2/3 makes noise and bias fall
-/// equally fast (Knaus and Zwicker 2011, section 4.3).
-constexpr double kFirstScale = 4, kAlpha = 2.0 / 3;
+/// A run that is killed loses an eighth of its photons, or a 64th of all of them. The file has each that is kept.
+bool isWorthKeeping(int64_t fresh, int64_t kept, int64_t all) { return fresh >= std::max(kept / 8, all / 64); }
 
-/// The noise is looked at only when the number of passes has doubled. If it were looked at after each pass, it would at
-/// some time be low by chance.
-bool isTimeToAsk(int64_t passes) { return passes >= 4 && (passes & (passes - 1)) == 0; }
+CountedPhotons resumed(const Checkpoint* kept, PhotonMeasurement& measurement) {
+  CountedPhotons out;
+  return kept && kept->take(KeptKind::CountedPhotons, 0, out) && measurement.resume(out.sums) ? out : CountedPhotons{};
+}
+
+void countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>& all, const PhotonPasses& passes,
+                  Checkpoint* kept, const std::function<void(float)>& progress, PhotonMeasurement& measurement,
+                  CountedPhotons& done) {
+  int64_t keptPhotons = done.planned;
+  while (done.passes < all.size()) {
+    const PhotonPass& pass = all[done.passes++];
+    measurement.beginPass(pass.scale, static_cast<double>(pass.photons) / static_cast<double>(passes.photons));
+    done.sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(done.passes)),
+                              pass.photons, [&](std::span<const StoredPhoton> p) { measurement.count(p); });
+    done.planned += pass.photons;
+    if (progress) progress(static_cast<float>(done.planned) / static_cast<float>(passes.photons));
+    if (pass.endsRound && measurement.noise() >= 0 && measurement.noise() < passes.noise) return;
+    if (!kept || !isWorthKeeping(done.planned - keptPhotons, keptPhotons, passes.photons)) continue;
+    done.sums = measurement.sums();
+    kept->keep(KeptKind::CountedPhotons, 0, done);
+    keptPhotons = done.planned;
+  }
+}
 
 MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const ShadePoints& points, TmConstVec3 N,
                          int i, int bounces) {
@@ -45,12 +84,11 @@ void MeasuredLight::note(const MeasurementPoint& point) {
   if (index_.emplace(hashOf(point), 0U).second) points_.push_back(point);
 }
 
-void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
+void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes, Checkpoint* kept,
                             const std::function<void(float)>& progress, Stats& stats) {
   // Threads have noted them in any order.
   std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return hashOf(a) < hashOf(b); });
   PhotonSettings settings;
-  settings.emit = std::min(passes.photons, kPhotonsOfPass);
   settings.seed = passes.seed;
   settings.direct = false;
   settings.specularFirstOnly = passes.specularFirstOnly;
@@ -60,20 +98,17 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes,
     settings.mostBounces = std::max(settings.mostBounces, points_[i].bounces);
   }
   const PhotonSources sources(*tools.rays, *tools.shading, settings, *passes.log);
-  auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power());
-  double scale = passes.shrinks ? kFirstScale : 1;
-  int64_t sent = 0;
-  for (int64_t pass = 1; sent < passes.photons && sources.power() > 0 && measurement->size() > 0; ++pass) {
-    measurement->beginPass(static_cast<float>(scale));
-    sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(pass)),
-                         [&](std::span<const StoredPhoton> photons) { measurement->count(photons); });
-    if (passes.shrinks) scale *= std::sqrt((static_cast<double>(pass) + kAlpha) / (static_cast<double>(pass) + 1));
-    if (progress) progress(std::min(1.0f, static_cast<float>(sent) / static_cast<float>(passes.photons)));
-    if (isTimeToAsk(pass) && measurement->noise() >= 0 && measurement->noise() < passes.noise) break;
-  }
-  stats.rays.photon += sent;
-  stats.photons.emitted += sent;
-  passes.tell(sent, measurement->size(), measurement->noise());
+  const std::vector<PhotonPass> all = photonPasses(passes.photons, passes.shrinks);
+  const float largestScale = all.empty() ? 1 : all.front().scale;
+  auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power(),
+                                                         sources.power() > 0 ? tools.rays : nullptr, largestScale);
+  CountedPhotons done = resumed(kept, *measurement);
+  const int64_t before = done.sent;
+  if (measurement->size() > 0 && sources.power() > 0)
+    countPhotons(sources, all, passes, kept, progress, *measurement, done);
+  stats.rays.photon += done.sent - before;
+  stats.photons.emitted += done.sent - before;
+  passes.tell(done.sent, measurement->size(), measurement->noise());
   measurement_ = std::move(measurement);
 }
 
@@ -98,7 +133,7 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
     for (const ShadePoints& batch : tile->batches) state.shading.shade(batch, context, out);
   });
   try {
-    state.measured->measure(*tools, *state.passes, progress, state.stats);
+    state.measured->measure(*tools, *state.passes, state.checkpoint, progress, state.stats);
   } catch (const Stopped&) {
     state.measured.reset();
   }

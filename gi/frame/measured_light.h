@@ -8,6 +8,7 @@
 
 #include "gi/photons/measurement.h"
 #include "gi/services.h"
+#include "reyes/base/checkpoint.h"
 #include "reyes/base/stop.h"
 
 namespace tomales {
@@ -21,9 +22,9 @@ class MeasuredLight {
   void note(const MeasurementPoint& point);
 
   /// Counts passes of photons at what has been noted, until as many as asked for have been sent or the noise is low
-  /// enough.
-  void measure(const RayTools& tools, const PhotonPasses& passes, const std::function<void(float)>& progress,
-               Stats& stats);
+  /// enough. `kept`: takes over what an earlier run has counted, and keeps what is; may be null.
+  void measure(const RayTools& tools, const PhotonPasses& passes, Checkpoint* kept,
+               const std::function<void(float)>& progress, Stats& stats);
 
   /// Returns E/pi at a point that is equal to a noted one, and 0 at any other. Threads: may be called concurrently.
   vec3 overPi(const MeasurementPoint& point) const;

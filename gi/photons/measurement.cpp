@@ -3,6 +3,7 @@
 #include <bit>
 #include <numeric>
 
+#include "gi/photons/disk_coverage.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -10,8 +11,8 @@ namespace {
 
 /// Photons that face a point's side by a smaller cosine lie on another surface.
 constexpr float kSameFacing = 0.7071f;
-/// Sums of 63 bits hold 2^23 times the power of a pass, and a photon with a millionth of it still has 20 bits.
-constexpr double kUnitsOfPower = 0x1p40;
+/// Sums of 63 bits hold 2^15 times the power of all photons, and one of 10^9 photons still has 18 bits.
+constexpr double kUnitsOfPower = 0x1p48;
 constexpr size_t kNumbers = 6, kColors = 3;
 
 uint64_t mixed(uint64_t x) {  // splitmix64 (Steele, Lea and Flood 2014)
@@ -29,18 +30,44 @@ uint64_t PhotonMeasurement::Cube::name() const {
   return out;
 }
 
-PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, double power)
-    : points_(std::move(points)),
-      unit_(power > 0 ? power / kUnitsOfPower : 1),
-      sums_(new std::atomic<int64_t>[kNumbers * points_.size()]) {
-  for (size_t i = 0; i < kNumbers * points_.size(); ++i) sums_[i] = 0;
+bool MeasurementPoint::holds(const vec3& at, const vec3& facing, float scale) const {
+  if (dot(facing, N) < kSameFacing) return false;
+  const vec3 off = at - P;
+  const float along = dot(off, N);
+  return std::abs(along) < thickness(scale) && dot(off, off) - along * along < scale * radius * scale * radius;
 }
 
-void PhotonMeasurement::beginPass(float scale) {
+PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, double power, const RayScene* rays,
+                                     float largestScale)
+    : points_(std::move(points)),
+      unit_(power > 0 ? power / kUnitsOfPower : 1),
+      rays_(rays),
+      covered_(points_.size(), 1.0f),
+      sums_(new std::atomic<int64_t>[kNumbers * points_.size()]) {
+  for (size_t i = 0; i < kNumbers * points_.size(); ++i) sums_[i] = 0;
+  if (!rays_) return;
+  std::vector<uint8_t> isEdge(points_.size());
+  parallelFor(points_.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) isEdge[i] = !isCovered(*rays_, points_[i], largestScale);
+  });
+  for (uint32_t i = 0; i < isEdge.size(); ++i)
+    if (isEdge[i]) edges_.push_back(i);
+}
+
+void PhotonMeasurement::beginPass(float scale, double weight) {
   ++passes_;
+  weight_ = weight;
+  weights_[static_cast<size_t>(passes_ & 1)] += weight;
   if (scale == scale_) return;
   scale_ = scale;
   build();
+  cover();
+}
+
+void PhotonMeasurement::cover() {
+  parallelFor(edges_.size(), 64, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) covered_[edges_[i]] = coverage(*rays_, points_[edges_[i]], scale_);
+  });
 }
 
 /// Puts each point into one cube that is at least twice as wide as the point's reach. So all that the point reaches
@@ -72,13 +99,6 @@ std::span<const PhotonMeasurement::Entry> PhotonMeasurement::slotOf(uint64_t cub
   return std::span(entries_).subspan(slots_[slot], slots_[slot + 1] - slots_[slot]);
 }
 
-bool PhotonMeasurement::holds(const MeasurementPoint& p, const StoredPhoton& photon) const {
-  if (photon.bounces > p.bounces || dot(photon.N, p.N) < kSameFacing) return false;
-  const vec3 off = photon.P - p.P;
-  const float along = dot(off, p.N), radius = scale_ * p.radius;
-  return std::abs(along) < radius + p.beside && dot(off, off) - along * along < radius * radius;
-}
-
 void PhotonMeasurement::count(std::span<const StoredPhoton> photons) {
   for (const StoredPhoton& photon : photons) {
     if (photon.group < 0) continue;
@@ -87,24 +107,25 @@ void PhotonMeasurement::count(std::span<const StoredPhoton> photons) {
       const glm::ivec3 first(glm::floor(at - 0.5f));
       for (int k = 0; k < 8; ++k) {
         const uint64_t cube = Cube{level, first + glm::ivec3(k & 1, k >> 1 & 1, k >> 2)}.name();
-        for (const Entry& e : slotOf(cube))
-          if (e.cube == cube && holds(points_[e.point], photon)) add(e.point, photon.power);
+        for (const Entry& e : slotOf(cube)) {
+          if (e.cube != cube || photon.bounces > points_[e.point].bounces) continue;
+          if (points_[e.point].holds(photon.P, photon.N, scale_)) add(e.point, photon.power);
+        }
       }
     }
   }
 }
 
 void PhotonMeasurement::add(uint32_t point, const vec3& power) {
-  const double units = 1 / (unit_ * double{scale_} * double{scale_});
+  const double units = weight_ / (unit_ * double{scale_} * double{scale_} * double{covered_[point]});
   std::atomic<int64_t>* const sums = &sums_[kNumbers * point + kColors * static_cast<size_t>(passes_ & 1)];
   for (int c = 0; c < 3; ++c) sums[c].fetch_add(std::llround(double{power[c]} * units), std::memory_order_relaxed);
 }
 
 vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
-  const int64_t passes = (passes_ + static_cast<int64_t>(parity)) / 2;  // the first pass is an odd one
-  if (passes == 0) return vec3(0.0f);
+  if (weights_[parity] <= 0) return vec3(0.0f);
   const double r = double{points_[point].radius};
-  const double scale = unit_ / (double{kPi} * double{kPi} * r * r * static_cast<double>(passes));
+  const double scale = unit_ / (double{kPi} * double{kPi} * r * r * weights_[parity]);
   vec3 out;
   for (int c = 0; c < 3; ++c)
     out[c] = static_cast<float>(
@@ -114,8 +135,20 @@ vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
 
 vec3 PhotonMeasurement::overPi(size_t point) const {
   if (passes_ == 0) return vec3(0.0f);
-  const float odd = static_cast<float>((passes_ + 1) / 2) / static_cast<float>(passes_);
+  const auto odd = static_cast<float>(weights_[1] / (weights_[0] + weights_[1]));
   return half(point, 1) * odd + half(point, 0) * (1 - odd);
+}
+
+PhotonSums PhotonMeasurement::sums() const {
+  return {passes_, weights_, {sums_.get(), sums_.get() + kNumbers * points_.size()}};
+}
+
+bool PhotonMeasurement::resume(const PhotonSums& sums) {
+  if (sums.power.size() != kNumbers * points_.size()) return false;
+  passes_ = sums.passes;
+  weights_ = sums.weights;
+  std::copy(sums.power.begin(), sums.power.end(), sums_.get());
+  return true;
 }
 
 double PhotonMeasurement::noise() const {

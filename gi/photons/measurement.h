@@ -1,13 +1,16 @@
 // Private to gi: the irradiance at given points, by photons that are counted where they arrive and never kept (Knaus
 // and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). Passes of photons are independent of each
-// other; the estimate is their mean. Sums are whole numbers, so that they are the same in any order. Space: current.
+// other; the estimate is their weighted mean. Sums are whole numbers, so that they are the same in any order. Space:
+// current.
 // Power: W. Threads: count() may be called concurrently with itself alone.
 #pragma once
+#include <array>
 #include <atomic>
 #include <memory>
 #include <span>
 
 #include "gi/photons.h"
+#include "raytrace/trace.h"
 
 namespace tomales {
 
@@ -16,22 +19,44 @@ struct MeasurementPoint {
   float radius;  ///< Radius of the disk on which photons count, at scale 1.
   float beside;  ///< Greatest distance from the surface to the polygons that photons meet, on either side.
   int bounces;   ///< Photons that have bounced more often (StoredPhoton::bounces) do not count.
+
+  /// Greatest distance along N of what lies on the disk.
+  float thickness(float scale) const { return scale * radius + beside; }
+  /// Tells whether a photon at `at`, which arrives on the side of the unit normal `facing`, counts.
+  bool holds(const vec3& at, const vec3& facing, float scale) const;
+};
+
+/// What has been counted, without the points.
+struct PhotonSums {
+  int64_t passes = 0;
+  std::array<double, 2> weights{};  ///< Sums of the weights of even and odd passes.
+  /// Weighted power over scale^2: for each point that of red, green and blue, of even passes and then of odd ones.
+  std::vector<int64_t> power{};
 };
 
 class PhotonMeasurement {
  public:
-  /// `power`: of all photons of a pass together; it fixes the unit of the sums.
-  PhotonMeasurement(std::vector<MeasurementPoint> points, double power);
+  /// `power`: of all photons of a pass together, in each pass the same; it fixes the unit of the sums. `largestScale`:
+  /// of all passes. Part of the disk of a point near an edge lies on no surface: rays find that part. Without `rays`
+  /// the whole disk counts as surface.
+  PhotonMeasurement(std::vector<MeasurementPoint> points, double power, const RayScene* rays = nullptr,
+                    float largestScale = 1);
 
-  /// Begins the next pass, in which each disk has `scale` times its radius. One thread calls it.
-  void beginPass(float scale);
+  /// Begins the next pass, in which each disk has `scale` times its radius. `weight`: of the pass in the mean; all of
+  /// them together are about 1 at most. One thread calls it.
+  void beginPass(float scale, double weight);
   void count(std::span<const StoredPhoton> photons);
 
   vec3 overPi(size_t point) const;  ///< Mean E/pi of the passes.
   /// Returns the expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the
-  /// mean difference of even and odd passes. Negative before there are two passes, or if no photon counted.
+  /// mean difference of even and odd passes, which should have equal radii and weights. Negative before there are two
+  /// passes, or if no photon counted.
   double noise() const;
   size_t size() const { return points_.size(); }
+  PhotonSums sums() const;
+  /// Goes on from sums(), which were those of an equal measurement. Returns false, and stays as it is, if they have
+  /// another number of points.
+  bool resume(const PhotonSums& sums);
 
  private:
   /// A cube of the grid: its edge is 2^level.
@@ -45,20 +70,24 @@ class PhotonMeasurement {
     uint32_t point;
   };
   float reach(const MeasurementPoint& p) const { return std::sqrt(2.0f) * scale_ * p.radius + p.beside; }
-  bool holds(const MeasurementPoint& p, const StoredPhoton& photon) const;
   void build();
+  void cover();
   void add(uint32_t point, const vec3& power);
   std::span<const Entry> slotOf(uint64_t cube) const;
   vec3 half(size_t point, size_t parity) const;
 
   std::vector<MeasurementPoint> points_;
-  const double unit_;  ///< Unit of the counted power, in W.
+  double unit_;  ///< Unit of the counted power, in W.
+  const RayScene* rays_;
+  std::vector<uint32_t> edges_;  ///< The points whose largest disk lies partly on no surface.
+  std::vector<float> covered_;   ///< The part of each point's disk that lies on a surface, at the current scale.
   float scale_ = 0;
+  double weight_ = 0;  ///< Of the pass that was begun last.
   int64_t passes_ = 0;
-  std::vector<int> levels_;      ///< The levels that have points.
-  std::vector<uint32_t> slots_;  ///< First entry of each slot of the hash table, and the end.
-  std::vector<Entry> entries_;   ///< Ordered by slot.
-  /// Power over scale^2: for each point that of red, green and blue, of even passes and then of odd ones.
+  std::array<double, 2> weights_{};  ///< As in PhotonSums, like the next.
+  std::vector<int> levels_;          ///< The levels that have points.
+  std::vector<uint32_t> slots_;      ///< First entry of each slot of the hash table, and the end.
+  std::vector<Entry> entries_;       ///< Ordered by slot.
   std::unique_ptr<std::atomic<int64_t>[]> sums_;
 };
 

@@ -66,11 +66,10 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
                       [](size_t sum, const PhotonSources::PhotonRange& s) { return sum + s.end - s.first; });
   double power = 0;
   for (const auto& [from, first, last] : ranges) {
-    const PhotonSources::Sent& sent = *from;
     for (size_t wave = first; wave < last; wave += photonsPerWave) {
       const size_t end = std::min(last, wave + photonsPerWave);
       stored.assign((end - wave + PhotonSources::kPhotonsPerTask - 1) / PhotonSources::kPhotonsPerTask, {});
-      sources.trace(sent, settings.seed, wave, end,
+      sources.trace(from, settings.seed, wave, end,
                     [&](size_t task, std::vector<StoredPhoton>&& photons) { stored[task] = std::move(photons); });
       for (const auto& photons : stored) {
         store(photons);
@@ -81,7 +80,7 @@ PhotonFigures tracePhotons(const Scene& scene, const RayScene& rays, const Shadi
         progress(static_cast<float>(static_cast<size_t>(figures.emitted) + end - first) / static_cast<float>(all));
     }
     figures.emitted += static_cast<int64_t>(last - first);
-    power += sent.source->power() * (static_cast<double>(last - first) / static_cast<double>(sent.count));
+    power += from.source->power() * (static_cast<double>(last - first) / static_cast<double>(from.count));
   }
   stats.rays.photon += figures.emitted;
   const BouncesLeft left = series.left(power);

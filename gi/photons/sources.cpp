@@ -47,27 +47,34 @@ PhotonSettings withDepth(PhotonSettings settings) {
 
 PhotonSources::PhotonSources(const RayScene& rays, const ShadingSystem& shading, const PhotonSettings& settings,
                              Log& log)
-    : settings_(withDepth(settings)), tracer_(rays.scene(), rays, shading, settings_, log) {
-  auto sources = sourcesOf(rays, shading, settings_, log);
-  for (const auto& s : sources) power_ += s->power();
-  for (auto& s : sources) {
-    const double share = std::round(static_cast<double>(settings_.emit) * s->power() / power_);
-    sources_.push_back({std::move(s), static_cast<size_t>(std::max(1.0, share))});
+    : settings_(withDepth(settings)),
+      sources_(sourcesOf(rays, shading, settings_, log)),
+      tracer_(rays.scene(), rays, shading, settings_, log) {
+  for (const auto& s : sources_) power_ += s->power();
+}
+
+std::vector<PhotonSources::Sent> PhotonSources::shared(int64_t emit) const {
+  std::vector<Sent> out;
+  for (const auto& s : sources_) {
+    const double share = std::round(static_cast<double>(emit) * s->power() / power_);
+    out.push_back({s.get(), static_cast<size_t>(std::max(1.0, share))});
   }
+  return out;
 }
 
 std::vector<PhotonSources::PhotonRange> PhotonSources::rangesOf(WorkPart part) const {
   const auto tasksOf = [](const Sent& s) { return (s.count + kPhotonsPerTask - 1) / kPhotonsPerTask; };
+  const std::vector<Sent> all = shared(settings_.emit);
   size_t tasks = 0, before = 0;
-  for (const Sent& s : sources_) tasks += tasksOf(s);
+  for (const Sent& s : all) tasks += tasksOf(s);
   const auto borderOf = [&](int index) { return tasks * static_cast<size_t>(index) / static_cast<size_t>(part.count); };
   const size_t begin = borderOf(part.index), end = borderOf(part.index + 1);
   std::vector<PhotonRange> out;
-  for (const Sent& s : sources_) {
+  for (const Sent& s : all) {
     const auto photonOf = [&](size_t task) {
       return std::min(s.count, (std::clamp(task, before, before + tasksOf(s)) - before) * kPhotonsPerTask);
     };
-    if (photonOf(begin) < photonOf(end)) out.push_back({&s, photonOf(begin), photonOf(end)});
+    if (photonOf(begin) < photonOf(end)) out.push_back({s, photonOf(begin), photonOf(end)});
     before += tasksOf(s);
   }
   return out;
@@ -89,9 +96,10 @@ void PhotonSources::trace(const Sent& from, uint32_t seed, size_t first, size_t 
   });
 }
 
-int64_t PhotonSources::pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const {
+int64_t PhotonSources::pass(uint32_t seed, int64_t emit,
+                            const std::function<void(std::span<const StoredPhoton>)>& count) const {
   int64_t sum = 0;
-  for (const Sent& s : sources_) {
+  for (const Sent& s : shared(emit)) {
     trace(s, seed, 0, s.count, [&](size_t, std::vector<StoredPhoton>&& photons) { count(photons); });
     sum += static_cast<int64_t>(s.count);
   }

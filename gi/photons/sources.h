@@ -12,17 +12,17 @@ class PhotonSources {
   PhotonSources(const PhotonSources&) = delete;
 
   struct Sent {
-    std::unique_ptr<const PhotonSource> source;
-    size_t count;  ///< Photons of settings().emit that are its share by power, at least one.
+    const PhotonSource* source;
+    size_t count;  ///< Its share by power of the photons that are sent, at least one.
   };
   double power() const { return power_; }  ///< Power of all sources together, in W.
   /// Photons `first` .. `end` - 1 of a source.
   struct PhotonRange {
-    const Sent* from;
+    Sent from;
     size_t first, end;
   };
-  /// Returns the photons of one part. Parts end where tasks do, so that tasks trace the same photons together as in the
-  /// whole.
+  /// Returns the photons of one part of settings().emit. Parts end where tasks do, so that tasks trace the same photons
+  /// together as in the whole.
   std::vector<PhotonRange> rangesOf(WorkPart part) const;
   const PhotonSettings& settings() const { return settings_; }
 
@@ -31,12 +31,15 @@ class PhotonSources {
   /// Traces photons `first` .. `end` - 1 of a source, in tasks; taken(k, photons) is called concurrently for task k.
   void trace(const Sent& from, uint32_t seed, size_t first, size_t end,
              const std::function<void(size_t task, std::vector<StoredPhoton>&& photons)>& taken) const;
-  /// Traces settings().emit photons. `count` is called concurrently, in any order. Returns the number of photons.
-  int64_t pass(uint32_t seed, const std::function<void(std::span<const StoredPhoton>)>& count) const;
+  /// Traces about `emit` photons, which carry power(). `count` is called concurrently, in any order. Returns the number
+  /// of photons.
+  int64_t pass(uint32_t seed, int64_t emit, const std::function<void(std::span<const StoredPhoton>)>& count) const;
 
  private:
+  std::vector<Sent> shared(int64_t emit) const;
+
   PhotonSettings settings_;
-  std::vector<Sent> sources_;
+  std::vector<std::unique_ptr<const PhotonSource>> sources_;
   double power_ = 0;
   PhotonTracer tracer_;
 };

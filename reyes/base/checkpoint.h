@@ -13,7 +13,15 @@
 namespace tomales {
 
 /// Everything that is kept; the second number of a name counts results of its kind.
-enum class KeptKind : uint32_t { Identity, GatherSites, GatherRecords, BounceRecords, RadiosityTexels, ShadedTile };
+enum class KeptKind : uint32_t {
+  Identity,
+  GatherSites,
+  GatherRecords,
+  BounceRecords,
+  RadiosityTexels,
+  ShadedTile,
+  CountedPhotons,
+};
 
 class Checkpoint {
  public:

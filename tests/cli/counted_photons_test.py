@@ -97,5 +97,5 @@ few, many = (bytes_of(n, CLOSED, "--gi", "reference", "--samples", "2", "--photo
 t.expect(few == many, "the reference sends no photons where nothing mirrors them")
 t.write("ends.rib", CLOSED.format(name="ends"))
 said = t.run("ends.rib", "-v", "--gi", "progressive", "--photons", "100000000", "--photon-noise", "0.05").stderr
-t.expect("524288 photons were counted" in said and "[photons-counted]" in said, "photons end when their noise is low")
+t.expect("131072 photons were counted" in said and "[photons-counted]" in said, "photons end when their noise is low")
 t.finish()

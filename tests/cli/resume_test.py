@@ -98,6 +98,11 @@ for method in ("radiosity", "atlas"):
     share = resumed("room.rib", "--gi", method, "--photons", "50000")
     t.expect(share < 0.6, f"{method}: {share:.3f} of its rays")
 
+counted = ("--gi", "progressive", "--photons", "2000000")
+cut(60, signal.SIGKILL, "room.rib", *counted)
+share = resumed("room.rib", *counted)
+t.expect(share < 0.6, f"progressive: {share:.3f} of its photons")
+
 t.run("hide", "room.rib", "-o", "room.dfb", "-q")
 t.run("gather", "room.dfb", "-o", "whole.icf", "--stats", "whole.json", "-q")
 for at, number in ((20, signal.SIGKILL), (60, signal.SIGTERM)):

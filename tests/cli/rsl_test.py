@@ -69,6 +69,12 @@ expect_all("beside", GREEN, "is its surface")
 elsewhere = subprocess.run([t.program, t.folder / "beside.rib", "-o", t.folder / "elsewhere.exr"], cwd="/", capture_output=True, text=True)
 t.expect(elsewhere.returncode == 0 and not elsewhere.stderr, f"beside the scene is not the working folder ({elsewhere.stderr[:200]})")
 expect_all("elsewhere", GREEN, "and the surface is found from there")
+for name, value, x in (("left", "color(0, 1, 0)", -1), ("right", "color(0, 0, 1)", 1)):
+    t.write(f"{folder(name)}/own.sl", plain("own", value))
+    t.write(f"{name}/half.rib", f'Surface "own"\nPatch "bilinear" "P" [{x - 1} 2 0.9  {x + 1} 2 0.9  {x - 1} -2 0.9  {x + 1} -2 0.9]\n')
+scene("halves", 'ReadArchive "left/half.rib"\nReadArchive "right/half.rib"\nSurface "constant"')
+render("equal shader calls in archives of two folders", "halves")
+t.expect(picture("halves")[4, 16] == GREEN and picture("halves")[28, 16] == BLUE, "name the shader beside each archive")
 folder("library")
 t.write("library/green.sl", plain("green", "color(1, 0, 0)"))
 os.environ["TOMALES_SHADERS"] = "library"

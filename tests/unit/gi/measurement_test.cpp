@@ -40,15 +40,20 @@ std::vector<MeasurementPoint> pointsOnSphere(int bounces) {
   return out;
 }
 
+/// Counts one pass for each scale. `stops`: goes on in another measurement after the first pass.
 PhotonMeasurement measured(World& world, std::vector<MeasurementPoint> points, const PhotonSettings& settings,
-                           const std::vector<float>& scales) {
+                           const std::vector<float>& scales, bool stops = false) {
   const auto services = world.use({.mode = GiMode::None});
   const PhotonSources sources(world.rays, world.shading, settings, world.log);
-  PhotonMeasurement out(std::move(points), sources.power());
+  PhotonMeasurement out(points, sources.power());
   uint32_t seed = 1;
   for (const float scale : scales) {
-    out.beginPass(scale);
-    sources.pass(seed++, [&](std::span<const StoredPhoton> photons) { out.count(photons); });
+    out.beginPass(scale, 1 / static_cast<double>(scales.size()));
+    sources.pass(seed++, settings.emit, [&](std::span<const StoredPhoton> photons) { out.count(photons); });
+    if (!std::exchange(stops, false)) continue;
+    const PhotonSums sums = out.sums();
+    out = PhotonMeasurement(points, sources.power());
+    EXPECT_TRUE(out.resume(sums));
   }
   return out;
 }
@@ -87,6 +92,31 @@ TEST(PhotonMeasurement, HasTheSameBitsForAnyNumberOfThreadsAndOrderOfPoints) {
   const std::vector<vec3> one = sums(1, false);
   EXPECT_EQ(one, sums(3, false));
   EXPECT_EQ(one, sums(2, true));
+}
+
+TEST(PhotonMeasurement, WeighsItsPasses) {
+  World world(closedSphere());
+  const auto services = world.use({.mode = GiMode::None});
+  const PhotonSources sources(world.rays, world.shading, {20000}, world.log);
+  PhotonMeasurement m(pointsOnSphere(0), sources.power());
+  for (const double weight : {0.2, 0.4, 0.1}) {
+    m.beginPass(1, weight);
+    if (weight == 0.4) sources.pass(1, 20000, [&](std::span<const StoredPhoton> photons) { m.count(photons); });
+  }
+  EXPECT_NEAR(meanOf(m), 4 * kDirect / 7, 0.01 * kDirect) << "two of three passes are dark";
+}
+
+TEST(PhotonMeasurement, GoesOnWithTheSameBitsWhereAnotherStopped) {
+  World world(closedSphere());
+  const std::vector<MeasurementPoint> points = pointsOnSphere(kAll);
+  const PhotonMeasurement whole = measured(world, points, {20000}, {1, 0.8f, 0.7f}),
+                          resumed = measured(world, points, {20000}, {1, 0.8f, 0.7f}, true);
+  for (size_t i = 0; i < points.size(); ++i) EXPECT_EQ(whole.overPi(i), resumed.overPi(i));
+  EXPECT_EQ(whole.noise(), resumed.noise());
+  PhotonMeasurement other(pointsOnSphere(kAll), 1);
+  PhotonSums sums = whole.sums();
+  sums.power.pop_back();
+  EXPECT_FALSE(other.resume(sums)) << "sums of other points";
 }
 
 TEST(PhotonMeasurement, ItsNoiseIsTheErrorThatItHas) {
