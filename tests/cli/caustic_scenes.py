@@ -18,7 +18,7 @@ AttributeBegin
 Attribute "photon" "causticmap" ["floor"]
 Surface "matte"
 Color 0.7 0.7 0.7
-Polygon "P" [-2 0 -2  -2 0 2  2 0 2  2 0 -2]
+Polygon "P" [-{half} 0 -{half}  -{half} 0 {half}  {half} 0 {half}  {half} 0 -{half}]
 AttributeEnd
 Attribute "visibility" "int camera" [0]
 Attribute "trace" "float tessellation" [4]
@@ -39,7 +39,7 @@ SCENES = {
 }
 
 
-def text(name):
-    """Returns the RIB of a scene, whose picture is NAME.exr."""
+def text(name, half=2):
+    """Returns the RIB of a scene, whose picture is NAME.exr. The floor has edges of twice `half`."""
     light, thing = SCENES[name]
-    return ABOVE.format(name=name, light=light, thing=thing)
+    return ABOVE.format(name=name, light=light, thing=thing, half=half)
