@@ -25,7 +25,7 @@ TEST(PhotonPasses, SendAsManyPhotonsAsAskedForInHalvesOfARound) {
       sent += passes[i].photons;
       if (i % 2 == 0) even += passes[i].photons;
       if (!passes[i].endsRound) continue;
-      EXPECT_NEAR(static_cast<double>(2 * even - sent), 0, 20) << photons;
+      EXPECT_NEAR(static_cast<double>(2 * even - sent), 0, static_cast<double>(passes.size())) << photons;
     }
     EXPECT_EQ(sent, photons);
     EXPECT_TRUE(passes.back().endsRound);

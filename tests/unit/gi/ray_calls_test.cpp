@@ -30,7 +30,7 @@ void coloredQuad(SceneBuilder& b, const vec3 (&corner)[4], const vec3 (&color)[4
   b.add(makeBilinearPatchMesh(2, false, 2, false, {P, C}, problems), vec3(1));
 }
 
-int addPoint(ShadePoints& points, const vec3& P, const vec3& N, const vec3& I) {
+int addSeenPoint(ShadePoints& points, const vec3& P, const vec3& N, const vec3& I) {
   const int i = points.add(static_cast<uint32_t>(points.count()) * 7919u + 3);
   points.set3(kPx, i, P);
   points.set3(kNx, i, N);
@@ -64,7 +64,7 @@ struct Answer {
 Answer traceOne(const GiServices& services, const vec3& P, const vec3& direction, const RayQuery& query,
                 const ShadeContext& context = {}) {
   ShadePoints points(0, 0);
-  addPoint(points, P, {0, 1, 0}, {0, -1, 0});
+  addSeenPoint(points, P, {0, 1, 0}, {0, -1, 0});
   const uint8_t active = 1;
   Answer a;
   const auto view = [](vec3& v) { return TmVec3{&v.x, &v.y, &v.z}; };
@@ -91,7 +91,7 @@ TEST(RayCalls, AMirrorShowsThePlaceWhereTheReflectedRayArrives) {
   for (int k = 0; k < 50; ++k) {
     const vec3 P(-3 + 0.12f * static_cast<float>(k), 0, 4 + 0.05f * static_cast<float>(k)), I = P - eye,
                                                                                             R(I.x, -I.y, I.z);
-    addPoint(points, P, {0, 1, 0}, I);
+    addSeenPoint(points, P, {0, 1, 0}, I);
     expected.push_back(P + R * ((10 - P.z) / R.z));
   }
   const std::vector<vec3> is = shaded(world, points);
@@ -116,7 +116,7 @@ TEST(RayCalls, AnEmitterThatAMirrorShowsCountsOnce) {
     World world(b.scene);
     const auto services = world.use({});
     ShadePoints points(0, 0);
-    addPoint(points, {0, 0, 1}, {0, 1, 0}, {0.1f, -1, 0.2f});
+    addSeenPoint(points, {0, 0, 1}, {0, 1, 0}, {0.1f, -1, 0.2f});
     const float is = shaded(world, points)[0].x;
     EXPECT_TRUE(is == 3 || is == 0) << is;
     // One of its sides shines, and diffuse rays leave it to direct light.
@@ -200,7 +200,7 @@ TEST(RayCalls, LightPassesLayersByTheProductOfTheirClearness) {
     const auto services = world.use({});
     for (const int through : {0, 1, 4, 7}) {
       ShadePoints points(0, 0);
-      addPoint(points, {0.3f, 0, 0.1f}, {0, 1, 0}, {0, -1, 0});
+      addSeenPoint(points, {0.3f, 0, 0.1f}, {0, 1, 0}, {0, -1, 0});
       const uint8_t active = 1;
       const vec3 toward(0, 0.5f * static_cast<float>(through) + 0.25f, 0);
       vec3 light(1);
@@ -245,7 +245,7 @@ TEST(RayCalls, OcclusionOfASphereOnAPlaneIsItsFormFactor) {
   std::vector<float> expected;
   for (int k = 0; k < 12; ++k) {
     const float d = 0.5f + 0.25f * static_cast<float>(k);
-    addPoint(points, {d, 0, 5}, {0, 1, 0}, {0, -1, 0});
+    addSeenPoint(points, {d, 0, 5}, {0, 1, 0}, {0, -1, 0});
     // Form factor of a sphere that touches the horizon: (r / D)^2 cos.
     expected.push_back(1 - std::pow(1 / std::sqrt(1 + d * d), 3.0f));
   }
@@ -264,7 +264,7 @@ TEST(RayCalls, OcclusionInARightAngledCornerIsThatOfAnEndlessWall) {
   ShadePoints points(0, 0);
   std::vector<float> expected;
   for (const float x : {0.01f, 0.1f, 0.5f, 1.0f, 2.0f, 5.0f}) {
-    addPoint(points, {x, 0, 5}, {0, 1, 0}, {0, -1, 0});
+    addSeenPoint(points, {x, 0, 5}, {0, 1, 0}, {0, -1, 0});
     // An endless wall covers half of 1 less the sine of the angle between its top and the vertical.
     expected.push_back(1 - 0.5f * (1 - x / std::hypot(x, height)));
   }
@@ -323,8 +323,8 @@ TEST(RayCalls, GlassAndMirrorsAreAsBrightAsTheSkyAroundThem) {
   ShadePoints glass(0, 0), mirror(1, 0);
   for (int k = 0; k < 20; ++k) {
     const float x = 0.045f * static_cast<float>(k), z = -std::sqrt(1 - x * x);
-    addPoint(glass, vec3(x, 0, z) + vec3(0, 0, 5), {x, 0, z}, vec3(x, 0, 5 + z));
-    addPoint(mirror, vec3(-x, 0, z) + vec3(3, 0, 5), {-x, 0, z}, {0, 0, 1});
+    addSeenPoint(glass, vec3(x, 0, z) + vec3(0, 0, 5), {x, 0, z}, vec3(x, 0, 5 + z));
+    addSeenPoint(mirror, vec3(-x, 0, z) + vec3(3, 0, 5), {-x, 0, z}, {0, 0, 1});
   }
   // Within glass weak reflections are left out with their share: nothing is lost.
   for (const vec3& c : shaded(world, glass)) EXPECT_NEAR(c.y, 3, 0.02f);
@@ -341,7 +341,7 @@ TEST(RayCalls, RaysThatAreNotShotDoNotLeave) {
   World world(b.scene);
   const auto services = world.use({});
   ShadePoints points(0, 0);
-  addPoint(points, {0, 0, 0}, {0, 1, 0}, {0.01f, -1, 0});
+  addSeenPoint(points, {0, 0, 0}, {0, 1, 0}, {0.01f, -1, 0});
   EXPECT_EQ(shaded(world, points)[0], vec3(0));
 }
 
@@ -358,7 +358,7 @@ TEST(RayCalls, DepthIsLimitedByTheObjectsOnTheWay) {
     World world(b.scene);
     const auto services = world.use({});
     ShadePoints points(0, 0);
-    addPoint(points, {0, 0, 0}, {0, 1, 0}, {0.01f, -1, 0});
+    addSeenPoint(points, {0, 0, 0}, {0, 1, 0}, {0.01f, -1, 0});
     shaded(world, points);
     return world.stats.rays.specular.load();
   };
