@@ -52,6 +52,7 @@ void countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>& a
     measurement.beginPass(pass.scale, static_cast<double>(pass.photons) / static_cast<double>(passes.photons));
     done.sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(done.passes)),
                               pass.photons, [&](std::span<const StoredPhoton> p) { measurement.count(p); });
+    measurement.endPass();
     done.planned += pass.photons;
     if (progress) progress(static_cast<float>(done.planned) / static_cast<float>(passes.photons));
     if (pass.endsRound && measurement.noise() >= 0 && measurement.noise() < passes.noise) return;

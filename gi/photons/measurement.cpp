@@ -1,7 +1,7 @@
 #include "gi/photons/measurement.h"
 
-#include <bit>
-#include <numeric>
+#include <algorithm>
+#include <utility>
 
 #include "gi/photons/disk_coverage.h"
 #include "reyes/base/parallel.h"
@@ -15,20 +15,13 @@ constexpr float kSameFacing = 0.7071f;
 constexpr double kUnitsOfPower = 0x1p48;
 constexpr size_t kNumbers = 6, kColors = 3;
 
-uint64_t mixed(uint64_t x) {  // splitmix64 (Steele, Lea and Flood 2014)
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
-  return x ^ x >> 31;
+Bound3 boundOf(const MeasurementPoint& p, float scale) {
+  const vec3 across = scale * p.radius * glm::sqrt(glm::max(vec3(0.0f), 1.0f - p.N * p.N));
+  const vec3 half = across + p.thickness(scale) * glm::abs(p.N);
+  return {p.P - half, p.P + half};
 }
 
 }  // namespace
-
-uint64_t PhotonMeasurement::Cube::name() const {
-  uint64_t out = mixed(static_cast<uint32_t>(level));
-  for (const int c : {at.x, at.y, at.z}) out = mixed(out ^ static_cast<uint32_t>(c));
-  return out;
-}
 
 bool MeasurementPoint::holds(const vec3& at, const vec3& facing, float scale) const {
   if (dot(facing, N) < kSameFacing) return false;
@@ -43,8 +36,10 @@ PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, doubl
       unit_(power > 0 ? power / kUnitsOfPower : 1),
       rays_(rays),
       covered_(points_.size(), 1.0f),
-      sums_(new std::atomic<int64_t>[kNumbers * points_.size()]) {
-  for (size_t i = 0; i < kNumbers * points_.size(); ++i) sums_[i] = 0;
+      power_(kNumbers * points_.size()) {
+  std::vector<vec3> places;
+  for (const MeasurementPoint& p : points_) places.push_back(p.P);
+  order_ = mortonOrder(places);
   if (!rays_) return;
   std::vector<uint8_t> isEdge(points_.size());
   parallelFor(points_.size(), 256, [&](size_t begin, size_t end) {
@@ -60,7 +55,6 @@ void PhotonMeasurement::beginPass(float scale, double weight) {
   weights_[static_cast<size_t>(passes_ & 1)] += weight;
   if (scale == scale_) return;
   scale_ = scale;
-  build();
   cover();
 }
 
@@ -70,56 +64,28 @@ void PhotonMeasurement::cover() {
   });
 }
 
-/// Puts each point into one cube that is at least twice as wide as the point's reach. So all that the point reaches
-/// lies in that cube or within half its width of it.
-void PhotonMeasurement::build() {
-  const size_t count = points_.size();
-  std::vector<uint64_t> cube(count);
-  std::vector<int> level(count);
-  parallelFor(count, 4096, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      level[i] = std::ilogb(2 * reach(points_[i])) + 1;
-      cube[i] = Cube{level[i], glm::ivec3(glm::floor(points_[i].P * std::ldexp(1.0f, -level[i])))}.name();
-    }
-  });
-  levels_ = level;
-  std::sort(levels_.begin(), levels_.end());
-  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-  const size_t slots = std::bit_ceil(std::max<size_t>(count, 1));
-  slots_.assign(slots + 1, 0);
-  for (const uint64_t c : cube) ++slots_[(c & (slots - 1)) + 1];
-  std::partial_sum(slots_.begin(), slots_.end(), slots_.begin());
-  std::vector<uint32_t> next(slots_.begin(), slots_.end() - 1);
-  entries_.resize(count);
-  for (size_t i = 0; i < count; ++i) entries_[next[cube[i] & (slots - 1)]++] = {cube[i], static_cast<uint32_t>(i)};
-}
-
-std::span<const PhotonMeasurement::Entry> PhotonMeasurement::slotOf(uint64_t cube) const {
-  const size_t slot = cube & (slots_.size() - 2);
-  return std::span(entries_).subspan(slots_[slot], slots_[slot + 1] - slots_[slot]);
-}
-
 void PhotonMeasurement::count(std::span<const StoredPhoton> photons) {
-  for (const StoredPhoton& photon : photons) {
-    if (photon.group < 0) continue;
-    for (const int level : levels_) {
-      const vec3 at = photon.P * std::ldexp(1.0f, -level);
-      const glm::ivec3 first(glm::floor(at - 0.5f));
-      for (int k = 0; k < 8; ++k) {
-        const uint64_t cube = Cube{level, first + glm::ivec3(k & 1, k >> 1 & 1, k >> 2)}.name();
-        for (const Entry& e : slotOf(cube)) {
-          if (e.cube != cube || photon.bounces > points_[e.point].bounces) continue;
-          if (points_[e.point].holds(photon.P, photon.N, scale_)) add(e.point, photon.power);
-        }
-      }
-    }
-  }
+  const std::lock_guard lock(*counting_);
+  for (const StoredPhoton& p : photons)
+    if (p.group >= 0) counted_.push_back(p);
 }
 
-void PhotonMeasurement::add(uint32_t point, const vec3& power) {
+void PhotonMeasurement::endPass() {
+  const PhotonArrivals arrivals(counted_);
+  counted_.clear();
+  parallelFor(points_.size(), 64, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) measure(order_[i], arrivals);
+  });
+}
+
+void PhotonMeasurement::measure(uint32_t point, const PhotonArrivals& arrivals) {
+  const MeasurementPoint& p = points_[point];
   const double units = weight_ / (unit_ * double{scale_} * double{scale_} * double{covered_[point]});
-  std::atomic<int64_t>* const sums = &sums_[kNumbers * point + kColors * static_cast<size_t>(passes_ & 1)];
-  for (int c = 0; c < 3; ++c) sums[c].fetch_add(std::llround(double{power[c]} * units), std::memory_order_relaxed);
+  int64_t* const sums = &power_[kNumbers * point + kColors * static_cast<size_t>(passes_ & 1)];
+  arrivals.visit(boundOf(p, scale_), [&](const StoredPhoton& photon) {
+    if (photon.bounces > p.bounces || !p.holds(photon.P, photon.N, scale_)) return;
+    for (int c = 0; c < 3; ++c) sums[c] += std::llround(double{photon.power[c]} * units);
+  });
 }
 
 vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
@@ -129,7 +95,7 @@ vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
   vec3 out;
   for (int c = 0; c < 3; ++c)
     out[c] = static_cast<float>(
-        static_cast<double>(sums_[kNumbers * point + kColors * parity + static_cast<size_t>(c)]) * scale);
+        static_cast<double>(power_[kNumbers * point + kColors * parity + static_cast<size_t>(c)]) * scale);
   return out;
 }
 
@@ -139,15 +105,13 @@ vec3 PhotonMeasurement::overPi(size_t point) const {
   return half(point, 1) * odd + half(point, 0) * (1 - odd);
 }
 
-PhotonSums PhotonMeasurement::sums() const {
-  return {passes_, weights_, {sums_.get(), sums_.get() + kNumbers * points_.size()}};
-}
+PhotonSums PhotonMeasurement::sums() const { return {passes_, weights_, power_}; }
 
 bool PhotonMeasurement::resume(const PhotonSums& sums) {
-  if (sums.power.size() != kNumbers * points_.size()) return false;
+  if (sums.power.size() != power_.size()) return false;
   passes_ = sums.passes;
   weights_ = sums.weights;
-  std::copy(sums.power.begin(), sums.power.end(), sums_.get());
+  power_ = sums.power;
   return true;
 }
 

@@ -5,11 +5,11 @@
 // Power: W. Threads: count() may be called concurrently with itself alone.
 #pragma once
 #include <array>
-#include <atomic>
 #include <memory>
+#include <mutex>
 #include <span>
 
-#include "gi/photons.h"
+#include "gi/photons/arrivals.h"
 #include "raytrace/trace.h"
 
 namespace tomales {
@@ -46,6 +46,8 @@ class PhotonMeasurement {
   /// them together are about 1 at most. One thread calls it.
   void beginPass(float scale, double weight);
   void count(std::span<const StoredPhoton> photons);
+  /// Adds what has been counted since the pass began. Uses the pool.
+  void endPass();
 
   vec3 overPi(size_t point) const;  ///< Mean E/pi of the passes.
   /// Returns the expected absolute error of overPi() by noise, all points together, over the mean of overPi(): half the
@@ -59,25 +61,13 @@ class PhotonMeasurement {
   bool resume(const PhotonSums& sums);
 
  private:
-  /// A cube of the grid: its edge is 2^level.
-  struct Cube {
-    int level;
-    glm::ivec3 at;
-    uint64_t name() const;
-  };
-  struct Entry {
-    uint64_t cube;
-    uint32_t point;
-  };
-  float reach(const MeasurementPoint& p) const { return std::sqrt(2.0f) * scale_ * p.radius + p.beside; }
-  void build();
+  void measure(uint32_t point, const PhotonArrivals& arrivals);
   void cover();
-  void add(uint32_t point, const vec3& power);
-  std::span<const Entry> slotOf(uint64_t cube) const;
   vec3 half(size_t point, size_t parity) const;
 
   std::vector<MeasurementPoint> points_;
-  double unit_;  ///< Unit of the counted power, in W.
+  double unit_;                  ///< Unit of the counted power, in W.
+  std::vector<uint32_t> order_;  ///< The points along Morton's curve.
   const RayScene* rays_;
   std::vector<uint32_t> edges_;  ///< The points whose largest disk lies partly on no surface.
   std::vector<float> covered_;   ///< The part of each point's disk that lies on a surface, at the current scale.
@@ -85,10 +75,9 @@ class PhotonMeasurement {
   double weight_ = 0;  ///< Of the pass that was begun last.
   int64_t passes_ = 0;
   std::array<double, 2> weights_{};  ///< As in PhotonSums, like the next.
-  std::vector<int> levels_;          ///< The levels that have points.
-  std::vector<uint32_t> slots_;      ///< First entry of each slot of the hash table, and the end.
-  std::vector<Entry> entries_;       ///< Ordered by slot.
-  std::unique_ptr<std::atomic<int64_t>[]> sums_;
+  std::vector<int64_t> power_;
+  std::unique_ptr<std::mutex> counting_ = std::make_unique<std::mutex>();
+  std::vector<StoredPhoton> counted_;  ///< The photons of this pass.
 };
 
 }  // namespace tomales

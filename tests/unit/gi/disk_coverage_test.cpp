@@ -92,6 +92,7 @@ TEST(DiskCoverage, MakesTheIrradianceAtAnEdgeThatOfTheWallBesideIt) {
     PhotonMeasurement m(points, sources.power(), knowsEdges ? &world.rays : nullptr, 1);
     m.beginPass(1, 1);
     sources.pass(1, 400000, [&](std::span<const StoredPhoton> photons) { m.count(photons); });
+    m.endPass();
     for (size_t i = 0; i < points.size(); ++i) {
       const double expected = meanOnWall(points[i].P, kDisk), got = double{m.overPi(i).y};
       if (knowsEdges || i == 0)

@@ -50,6 +50,7 @@ PhotonMeasurement measured(World& world, std::vector<MeasurementPoint> points, c
   for (const float scale : scales) {
     out.beginPass(scale, 1 / static_cast<double>(scales.size()));
     sources.pass(seed++, settings.emit, [&](std::span<const StoredPhoton> photons) { out.count(photons); });
+    out.endPass();
     if (!std::exchange(stops, false)) continue;
     const PhotonSums sums = out.sums();
     out = PhotonMeasurement(points, sources.power());
@@ -102,6 +103,7 @@ TEST(PhotonMeasurement, WeighsItsPasses) {
   for (const double weight : {0.2, 0.4, 0.1}) {
     m.beginPass(1, weight);
     if (weight == 0.4) sources.pass(1, 20000, [&](std::span<const StoredPhoton> photons) { m.count(photons); });
+    m.endPass();
   }
   EXPECT_NEAR(meanOf(m), 4 * kDirect / 7, 0.01 * kDirect) << "two of three passes are dark";
 }
