@@ -99,7 +99,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes, C
     settings.mostBounces = std::max(settings.mostBounces, points_[i].bounces);
   }
   const PhotonSources sources(*tools.rays, *tools.shading, settings, *passes.log);
-  const std::vector<PhotonPass> all = photonPasses(passes.photons, passes.shrinks);
+  const std::vector<PhotonPass> all = photonPasses(passes.photons, passes.pixels);
   const float largestScale = all.empty() ? 1 : all.front().scale;
   auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power(),
                                                          sources.power() > 0 ? tools.rays : nullptr, largestScale);
