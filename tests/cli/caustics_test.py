@@ -3,7 +3,7 @@ import pathlib
 import statistics
 import sys
 
-from caustic_scenes import ABOVE, SCENES
+from caustic_scenes import SCENES, text
 from program import Suite
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
@@ -31,8 +31,8 @@ def means(name, method):
     return list(zip(*out))
 
 
-for name, (light, thing) in SCENES.items():
-    t.write(name + ".rib", ABOVE.format(name=name, light=light, thing=thing))
+for name in SCENES:
+    t.write(name + ".rib", text(name))
     found = {method: means(name, method) for method in METHODS if method != "progressive" or name != "shining ring"}
     truth = [statistics.mean(m) for m in found["reference"]]
     for method in sorted(set(found) - {"reference"}):

@@ -1,6 +1,7 @@
 """Compares photons that are counted at visible points (--gi progressive, and caustics of --gi reference) with closed forms."""
 import math
 import pathlib
+import re
 import sys
 
 from program import Suite
@@ -97,5 +98,6 @@ few, many = (bytes_of(n, CLOSED, "--gi", "reference", "--samples", "2", "--photo
 t.expect(few == many, "the reference sends no photons where nothing mirrors them")
 t.write("ends.rib", CLOSED.format(name="ends"))
 said = t.run("ends.rib", "-v", "--gi", "progressive", "--photons", "100000000", "--photon-noise", "0.05").stderr
-t.expect("131072 photons were counted" in said and "[photons-counted]" in said, "photons end when their noise is low")
+told = re.search(r"(\d+) photons were counted at \d+ points; the noise of what they bring is ([\d.]+) % \[photons-counted\]", said)
+t.expect(told and int(told[1]) < 1e6 and float(told[2]) < 5, f"photons end when their noise is low ({said})")
 t.finish()
