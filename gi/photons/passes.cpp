@@ -11,7 +11,7 @@ constexpr int64_t kFirstRound = 1 << 13, kMostPhotonsOfPass = 1 << 17;
 /// noise are equal is a length of the scene, whatever the picture's size. A larger picture is made for finer detail. So
 /// the radius falls with the fourth root of the pixels, and that of a micropolygon with their square root. The factor
 /// was measured (docs/measured/indirect.md, "Caustics").
-double photonsOfUnitScale(int64_t pixels) { return 0x1p14 * std::pow(static_cast<double>(pixels), 1.5); }
+double photonsOfUnitScale(int64_t pixels) { return 0x1p11 * std::pow(static_cast<double>(pixels), 1.5); }
 
 /// The area of a disk falls with n^(alpha - 1) after n photons. With alpha = 2/3, noise and bias fall equally fast
 /// (Knaus and Zwicker 2011, section 4.3). The area in a round is the mean of those that it would have if disks shrank

@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-constexpr int64_t kPixels = 1 << 10;
+constexpr int64_t kPixels = 1 << 12;
 
 /// Returns the mean area of the disks over that of the micropolygon, photons weighted alike.
 double meanArea(int64_t photons, int64_t pixels = kPixels) {
