@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "reyes/shader/math.h"
@@ -201,13 +202,14 @@ inline Vec3 cellnoise3(Vec3 p, float t = 0) {
 // --- Splines
 
 enum class Basis { CatmullRom, Bezier, BSpline, Hermite, Linear };
-/// Returns the basis of that name in RSL; Catmull-Rom if the name is unknown.
-inline Basis basisOf(const std::string& name) {
-  return name == "bezier"     ? Basis::Bezier
-         : name == "b-spline" ? Basis::BSpline
-         : name == "hermite"  ? Basis::Hermite
-         : name == "linear"   ? Basis::Linear
-                              : Basis::CatmullRom;
+/// Returns the basis of that name in RSL, or nothing. RIB calls bspline "b-spline", and catrom "catmull-rom".
+inline std::optional<Basis> basisNamed(const std::string& name) {
+  if (name == "catrom" || name == "catmull-rom") return Basis::CatmullRom;
+  if (name == "bezier") return Basis::Bezier;
+  if (name == "bspline" || name == "b-spline") return Basis::BSpline;
+  if (name == "hermite") return Basis::Hermite;
+  if (name == "linear") return Basis::Linear;
+  return std::nullopt;
 }
 /// Returns the weights of four knots at t in [0, 1].
 inline void splineWeights(Basis basis, float t, float* w) {

@@ -83,6 +83,7 @@ void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t til
                       resumes ? "interrupted: shaded buckets are written; the same command goes on from here"
                               : "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
+    context.diffuseLimit = 0;  // shaders may ask for indirect light themselves, with a thousand rays a point
   }
   size_t shaded = 0;
   bool complete = true;

@@ -77,7 +77,9 @@ void spline(Run& run, const PreparedInstruction& s) {
   std::string name = run.text(s.of->in[0]);
   const bool solved = name.starts_with(kSolve);
   if (solved) name.erase(0, kSolve.size());
-  const rsl::Basis basis = rsl::basisOf(name);
+  const std::optional<rsl::Basis> known = rsl::basisNamed(name);
+  if (!known) run.warn("asks for a spline of basis \"" + name + "\", which there is not; it is a Catmull-Rom spline");
+  const rsl::Basis basis = known.value_or(rsl::Basis::CatmullRom);
   const int32_t to = s.of->out[0], width = floatsOf(run.reg(to));
   const Reader x(run, s.of->in[1]);
   const Knots knots(run, *s.of, width);

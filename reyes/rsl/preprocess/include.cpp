@@ -81,6 +81,12 @@ bool IncludeSearch::isPermitted(const std::string& path) const {
   });
 }
 
+bool IncludeSearch::isHeaderOfCollection(const std::string& path, const std::string& real) const {
+  const fs::path file = real;
+  return file.extension() == ".h" && fs::absolute(path).lexically_normal() == file &&
+         std::ranges::find(collections_, file.parent_path().string()) != collections_.end();
+}
+
 ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::string& fromFolder) const {
   std::string wanted(name);
   std::ranges::replace(wanted, '\\', '/');
@@ -92,7 +98,7 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     const std::string path = wanted.starts_with('/') ? wanted : folder == "." ? wanted : folder + "/" + wanted;
     const std::string real = realPath(path);
     if (real.empty()) continue;
-    if (isPermitted(real)) return readFile(path);
+    if (isPermitted(real) || isHeaderOfCollection(path, real)) return readFile(path);
     isThere = true;
     out.failure = "it is outside of the folders from which files may be included";
   }

@@ -27,11 +27,13 @@ class IncludeSearch {
 
  private:
   bool isPermitted(const std::string& realPath) const;
+  /// Returns false if `path` leads over symbolic links to the real one.
+  bool isHeaderOfCollection(const std::string& path, const std::string& real) const;
   std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
   /// Folders in which collections of shaders keep their headers, as K-3D does above its folders of surfaces and
-  /// displacements. Headers alone are read from there, by plain names and not through links.
+  /// displacements. Headers alone are read from there, and not through links.
   std::vector<std::string> collections_;
 };
 

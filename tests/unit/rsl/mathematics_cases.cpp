@@ -125,6 +125,8 @@ Cases mathematicsCases() {
        }},
       {"b-spline of equal knots", "x = spline(\"b-spline\", 0.3, 2, 2, 2, 2);", 2},
       {"b-spline at a knot", "x = spline(\"b-spline\", 0, 1, 3, 2, 9);", 2.5f},
+      {"bspline is the same basis", "x = spline(\"bspline\", 0, 1, 3, 2, 9);", 2.5f},
+      {"catrom is catmull-rom", "x = spline(\"catrom\", 0.5, 1, 3, 2, 9) - spline(0.5, 1, 3, 2, 9);", 0},
       {"hermite goes through its points",
        "x = spline(\"hermite\", 0, 1, 5, 6, 4) * 10 + spline(\"hermite\", 1, 1, 5, 6, 4);", 16},
       {"linear", "x = spline(\"linear\", 0.25, 9, 1, 2, 9);", 1.25f},

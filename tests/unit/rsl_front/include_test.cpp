@@ -101,14 +101,19 @@ TEST_F(Includes, ReadNothingOutsideOfTheFolders) {
 
 TEST_F(Includes, LookForHeadersWhereCollectionsOfShadersKeepThem) {
   for (const char* folder : {"include", "own/include"}) fs::create_directories(root_ / folder);
-  write("include/x.h", "beside");
-  EXPECT_EQ(read("#include \"x.h\"\n1"), "beside 1");
+  write("include/x.h", "#include \"../include/y.h\"\nbeside");
+  write("include/y.h", "y");
+  EXPECT_EQ(read("#include \"x.h\"\n1"), "y beside 1");
+  EXPECT_EQ(read("#include \"../include/x.h\"\n1"), "y beside 1");
   write("x.h", "above");
   EXPECT_EQ(read("#include <x.h>\n1"), "above 1");
   write("own/include/x.h", "below");
   EXPECT_EQ(read("#include \"x.h\"\n1"), "below 1");
   write("headers/x.h", "headers");
   EXPECT_EQ(read("#include \"x.h\"\n1"), "headers 1");
+  EXPECT_EQ(read("#include \"../x.h\"\n1"), "above 1") << "where it says";
+  write("include/normals.h", "theirs");
+  EXPECT_EQ(read("#include \"../include/normals.h\"\n1"), "theirs 1");
 }
 
 TEST_F(Includes, LookForNothingElseThere) {
@@ -119,6 +124,9 @@ TEST_F(Includes, LookForNothingElseThere) {
   fs::create_symlink(root_ / "secret/x.h", root_ / "link.h");
   for (const std::string name : {"notes", "notes.txt", "secret/x.h", "link.h"})
     EXPECT_EQ(read("#include \"" + name + "\"\n"), " !cannot include '" + name + refused);
+  const std::string outside = "': it is outside of the folders from which files may be included";
+  for (const std::string name : {"../notes", "../notes.txt", "../secret/x.h", "../link.h"})
+    EXPECT_EQ(read("#include \"" + name + "\"\n"), " !cannot include '" + name + outside);
   fs::create_directory_symlink(root_ / "secret", root_ / "own/include");
   EXPECT_EQ(read("#include \"x.h\"\n"), " !cannot include 'x.h" + refused) << "a link of a folder";
 }

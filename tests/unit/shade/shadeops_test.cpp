@@ -256,7 +256,7 @@ TEST(Splines, OfManyKnotsPassThroughTheInnerOnesAndClamp) {
   EXPECT_EQ(rsl::spline(rsl::Basis::CatmullRom, 2, k, 7), k[5]);
   EXPECT_EQ(rsl::spline(rsl::Basis::CatmullRom, -1, k, 7), k[1]);
   expectNear(rsl::spline(0.5f, {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{}}), {0.5625f, 0.5625f, 0}, 1e-6f);
-  EXPECT_EQ(rsl::basisOf("b-spline"), rsl::Basis::BSpline);
+  EXPECT_EQ(rsl::basisNamed("b-spline"), rsl::Basis::BSpline);
 }
 
 TEST(Splines, AreInvertedWhereTheyRiseOrFall) {
