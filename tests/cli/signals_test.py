@@ -1,4 +1,5 @@
 """Tests signals: every pass must end soon, keep what is finished, and leave nothing else behind."""
+import json
 import os
 import re
 import signal
@@ -67,15 +68,17 @@ for threads in ("1", "2"):
     (t.folder / "photons.partial.exr").unlink()
 # Shaders ask for indirect light themselves. What is hidden when the signal comes is shaded without it.
 t.write("asks.sl", "surface asks() { normal n = normalize(N); color c = 0, h = 0; "
-        'gather("illuminance", P, n, 1.5, 20000, "surface:Ci", h) c += h; '
-        "Ci = Cs * diffuse(n) + indirectdiffuse(P, n, 500) + c / 20000; Oi = 1; }")
-t.write("asks.rib", ROOM.replace("matte", "asks").replace("64 64 1", "400 300 1"))
-process = start("asks.rib", "-o", "asks.exr", "--progress")
+        'gather("illuminance", P, n, 1.5, 500, "surface:Ci", h) c += h; '
+        "Ci = Cs * diffuse(n) + indirectdiffuse(P, n, 500) + c / 500; Oi = 1; }")
+t.write("asks.rib", ROOM.replace("matte", "asks").replace("64 64 1", "200 150 1"))
+process = start("asks.rib", "-o", "asks.exr", "--progress", "--stats", "asks.json")
 for said in process.stdout:
     if said.startswith("R90000") and int(said.split()[1].rstrip("%")) >= 35:
         break
 expect_soon("a frame whose shaders ask for indirect light", process, 143)
 t.expect((t.folder / "asks.partial.exr").exists() and not parts(), "with a picture")
+rays = json.loads((t.folder / "asks.json").read_text())["rays"]
+t.expect(rays["gather"] < 1e6, f"and few rays ({rays})")
 (t.folder / "asks.partial.exr").unlink()
 process = start("photons", "room.rib", "--photons", "1000000000", "-o", "photons")
 wait_for(lambda: parts(t.folder / "photons"))
