@@ -6,6 +6,7 @@ import pathlib
 import re
 import resource
 import shlex
+import signal
 import subprocess
 
 MOST_MEMORY = 12 << 30  # This limits the address space in bytes, so that a faulty loop does not take the machine with it.
@@ -13,18 +14,20 @@ INCLUDE = re.compile(r'^#include ("([^"]+)"|<[^>]+>)', re.M)
 
 
 def run(command, cwd, limit_s, env=None):
-    """Returns the exit code (None after the time limit) and the output."""
+    """Returns the exit code (None after the time limit) and the output. The limit is one of CPU time, so that a busy machine
+    does not make faults of slow tests. A program that waits has twenty times as long."""
     def limits():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (int(limit_s), int(limit_s)))
         resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     with subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                           start_new_session=True, env={**os.environ, **(env or {})}, preexec_fn=limits) as process:
         try:
-            text = process.communicate(timeout=limit_s)[0]
+            text = process.communicate(timeout=20 * limit_s)[0]
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, 9)
             return None, ""
-        return process.returncode, text
+        return None if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode, text
 
 
 class Unit:
