@@ -24,6 +24,15 @@ vec2 project(const mat4& ndcFromWorld, const vec3& p) {
   return vec2(h) / h.w;
 }
 
+/// Returns the edges u and v, each turned round if need be, so that they widen a square and do not narrow it.
+std::pair<vec2, vec2> widening(const vec2& square, const vec2& u, const vec2& v) {
+  const auto area = [&](const vec2& a, const vec2& b) { return (square.x + a.x) * (square.y + b.y) - a.y * b.x; };
+  std::pair<vec2, vec2> best{u, v};
+  for (const auto& [a, b] : {std::pair(u, -v), std::pair(-u, v), std::pair(-u, -v)})
+    if (area(a, b) > area(best.first, best.second)) best = {a, b};
+  return best;
+}
+
 }  // namespace
 
 std::unique_ptr<const ShadowMap> ShadowMap::read(const std::string& path, std::string& error) {
@@ -157,11 +166,12 @@ vec3 ShadowMap::shadow(const ShadowReceiver& receiver, const ShadowLookup& looku
   const float steepest = 8;  // beyond that slope the plane says nothing about its surroundings
   const float extent = 1 + 0.5f * (glm::length(view.u) + glm::length(view.v) + glm::length(square));
   const float reach = steepest * view.texel * extent;
+  const auto [u, v] = widening(square, view.u, view.v);
   vec3 sum(0.0f);
   const int n = lookup.samples;
   for (int k = 0; k < n; ++k) {
     const vec2 xi = sobol2(static_cast<uint32_t>(k), lookup.seed) - vec2(0.5f);
-    const vec2 at = view.at + xi * square + xi.x * view.u + xi.y * view.v;
+    const vec2 at = view.at + xi * square + xi.x * u + xi.y * v;
     const vec2 middle = glm::floor(at) + vec2(0.5f);
     const float z = view.depth(middle, reach);
     float bias = lookup.bias;
