@@ -166,13 +166,30 @@ TEST(RunProgram, GetsDetailAndDataAndEndsWithItsMark) {
 }
 
 TEST(RunProgram, ThatHangsDiesOrIsAbsentIsReported) {
-  for (const char* command : {"sleep 100", "exit 3", "kill -9 $$", "no_such_program_of_tomales", "true"}) {
+  const std::pair<const char*, const char*> rows[] = {{"sleep 100", "did not answer in time and was killed"},
+                                                      {"exit 3", "failed with exit code 3"},
+                                                      {"kill -9 $$", "died of signal 9"},
+                                                      {"no_such_program_of_tomales", "does not exist"},
+                                                      {"true", "wrote no request"}};
+  for (const auto& [command, trouble] : rows) {
     const Trusting r(
         inWorld("\nProcedural \"RunProgram\" [\"" + std::string(command) + "\" \"\"] [0 1 0 1 0 1]\n" + kSphere));
     EXPECT_EQ(r.objects(), 1u) << command;
-    EXPECT_EQ(r.log.count("rib-program"), 1) << command;
+    ASSERT_EQ(r.log.count("rib-program"), 1) << command;
     EXPECT_EQ(r.log.entries().at(0).where.line, 3);
+    EXPECT_NE(r.log.entries().at(0).message.find(trouble), std::string::npos) << r.log.entries().at(0).message;
   }
+}
+
+TEST(RunProgram, MayAskForItselfAgainAndAgain) {
+  const std::string call =
+      "Procedural \"RunProgram\" [\"while read detail data; do if [ $data = 1 ]; then printf 'ReadArchive "
+      "\\\\042inner\\\\042\\\\n'; else echo Sphere 1 -1 1 360; fi; printf '\\\\377'; done\" \"";
+  const std::string now = "\"] [-inf inf -inf inf -inf inf]\n";
+  const Trusting r(
+      inWorld("ArchiveBegin \"inner\" " + call + "2" + now + "ArchiveEnd\n" + call + "1" + now + call + "1" + now));
+  EXPECT_EQ(r.objects(), 2u);
+  EXPECT_TRUE(r.log.entries().empty()) << r.log.entries()[0].message;
 }
 
 TEST(RunProgram, ThatNeverEndsItsAnswerIsKilled) {

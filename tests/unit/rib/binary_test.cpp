@@ -188,6 +188,28 @@ TEST(Writer, RoundTripsEveryKindOfArgument) {
       std::string(300, 'x') + "\"] [-inf inf 0 1 0 1]");
 }
 
+TEST(Writer, SaysEachNameOnceInBinary) {
+  std::string text;
+  for (int i = 0; i < 300; ++i)
+    text += "Attribute \"user\" \"constant float quite_a_long_name\" " + std::to_string(i) + "\n";
+  const std::string binary = written(parsed(text), true, false);
+  for (const char* name : {"Attribute", "quite_a_long_name"}) EXPECT_EQ(binary.find(name), binary.rfind(name)) << name;
+  EXPECT_LT(binary.size(), 300u * 20);
+}
+
+// The first 256 names have codes of one byte, and those beyond 65,536 have none.
+TEST(Writer, RoundTripsMoreNamesThanThereAreCodes) {
+  std::string text;
+  for (int i = 0; i < 65600; ++i) {
+    const std::string name = std::to_string(i);
+    text += "Attribute \"user\" \"constant float n" + name + "\" 1\n";
+    if (i < 300 || i > 65500) text += "Attribute \"user\" \"constant float n" + name + "\" 2\n";
+  }
+  const std::vector<Request> list = parsed(text);
+  ASSERT_EQ(list.size(), 65600u + 300 + 99);
+  expectSame(parsed(written(list, true, false)), list);
+}
+
 // TOMALES_RIB_FOLDER: one more folder, of scenes that are not ours to keep.
 TEST(Writer, RoundTripsAllScenesAndTheUglyOnesToo) {
   std::vector<std::string> folders{TOMALES_SOURCE_DIR "/scenes", TOMALES_SOURCE_DIR "/tests/corpus",
