@@ -98,6 +98,31 @@ TEST(BrightSpots, NeedFourHitsAndSplitFromSixteenOn) {
   for (const BrightSpots::Spot& s : faces.spots()) EXPECT_NE(s.normal, vec3(0));
 }
 
+TEST(BrightSpots, FacesAreToldApartByTheirNormalsWhateverTheirSize) {
+  for (const float size : {0.01f, 1.0f, 100.0f}) {
+    BrightFind corner = rectangle(size * vec3(0, 0, 5), {size, 0, 0}, {0, size, 0});
+    for (const BrightHit& h : rectangle(size * vec3(0, 0, 5), {size, 0, 0}, {0, 0, size}).hits)
+      corner.hits.push_back(h);
+    const BrightSpots faces = spotsOf({corner});
+    ASSERT_EQ(faces.spots().size(), 2u) << size;
+    for (const BrightSpots::Spot& s : faces.spots()) EXPECT_NE(s.normal, vec3(0)) << size;
+  }
+}
+
+TEST(BrightSpots, WhatIsLearntInTurnIsLearntAtOnce) {
+  const BrightFind near = rectangle({0, 0, 5}, {1, 0, 0}, {0, 1, 0}), far = rectangle({50, 0, 5}, {1, 0, 0}, {0, 1, 0});
+  BrightSpots turns;
+  turns.learn({near});
+  turns.learn({far});
+  const BrightSpots once = spotsOf({near, far});
+  EXPECT_EQ(turns.irradiance(), once.irradiance());
+  ASSERT_EQ(turns.spots().size(), once.spots().size());
+  for (size_t i = 0; i < once.spots().size(); ++i) {
+    EXPECT_EQ(turns.spots()[i].center, once.spots()[i].center);
+    EXPECT_EQ(turns.spots()[i].radius, once.spots()[i].radius);
+  }
+}
+
 TEST(BrightSpots, AreSixtyFourAtMostOfThirtyTwoThousandHits) {
   BrightFind find{1, {}};
   for (uint32_t i = 0; i < 40000; ++i) {
@@ -131,6 +156,15 @@ TEST(SpotAim, LightIsThatOfASmallSourceAsItLooksFromThePoint) {
   EXPECT_EQ(ahead.pdf(glm::normalize(beyond)), 0);
   EXPECT_EQ(ahead.pdf(glm::normalize(s.center + 1.01f * s.halfV)), 0);
   EXPECT_EQ(ahead.pdf({0, 0, -1}), 0);
+}
+
+TEST(SpotAim, WhatIsDarkOrBelowTheHorizonIsNoTarget) {
+  BrightFind dark = rectangle({0, 0, 40}, {0, 1, 0}, {1, 0, 0});
+  const vec3 origin(0), ahead(0, 0, 1);
+  EXPECT_EQ(SpotAim(spotsOf({dark}), origin, ahead).targets(), 1u);
+  EXPECT_EQ(SpotAim(spotsOf({dark}), origin, -ahead).targets(), 0u);
+  for (BrightHit& h : dark.hits) h.radiance = 0;
+  EXPECT_EQ(SpotAim(spotsOf({dark}), origin, ahead).targets(), 0u);
 }
 
 TEST(SpotAim, ASphereIsAConeOfEvenDirections) {
