@@ -70,8 +70,9 @@ TEST_F(Imagers, LookUpCloudsAtPointsWithoutAWidthAndBakeNothing) {
   Radii clouds;
   system().setClouds(&clouds);
   system().image(pixels);
-  ASSERT_EQ(clouds.asked.size(), 8u);
-  for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(clouds.asked[i], i < 4 ? 0 : 1.5f, 1e-5f);
+  const size_t n = pixels.alpha.size();
+  ASSERT_EQ(clouds.asked.size(), 2 * n);
+  for (size_t i = 0; i < 2 * n; ++i) EXPECT_NEAR(clouds.asked[i], i < n ? 0 : 1.5f, 1e-5f);
   EXPECT_TRUE(log.entries().empty());
 }
 
