@@ -48,8 +48,8 @@ struct PhotonPasses {
   double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
   uint32_t seed = 0;
   bool specularFirstOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
-  /// Pixels of the picture, for disks that shrink while photons are counted. 0: each has the area of its micropolygon.
-  int64_t pixels = 0;
+  bool shrinks = false;  ///< The disks on which photons count shrink while photons are sent. Otherwise each has the
+                         ///< area of its micropolygon.
   Log* log = nullptr;  ///< Must be set, as the next.
   /// Is told, at the end, how many photons were sent, how many points there are, and their noise.
   std::function<void(int64_t sent, size_t points, double noise)> tell;

@@ -22,8 +22,8 @@ void fields(A& a, PhotonSums& x) {
 /// What has been counted, and is kept for a run that resumes.
 struct CountedPhotons {
   uint64_t passes = 0;
-  int64_t planned = 0,
-          sent = 0;  ///< Each light sends whole photons, so a pass may send a few more or fewer than planned.
+  int64_t planned = 0;
+  int64_t sent = 0;  ///< In each pass, every light sends one photon or more.
   PhotonSums sums{};
 };
 
@@ -35,8 +35,9 @@ void fields(A& a, CountedPhotons& x) {
 
 namespace {
 
-/// A run that is killed loses an eighth of its photons, or a 64th of all of them. The file has each that is kept.
-bool isWorthKeeping(int64_t fresh, int64_t kept, int64_t all) { return fresh >= std::max(kept / 8, all / 64); }
+/// A run that is killed loses up to a fifth of its photons, or a 32nd of all of them. The file grows by all sums each
+/// time.
+bool isWorthKeeping(int64_t fresh, int64_t kept, int64_t all) { return fresh >= std::max(kept / 4, all / 32); }
 
 CountedPhotons resumed(const Checkpoint* kept, PhotonMeasurement& measurement) {
   CountedPhotons out;
@@ -59,6 +60,7 @@ void countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>& a
     if (!kept || !isWorthKeeping(done.planned - keptPhotons, keptPhotons, passes.photons)) continue;
     done.sums = measurement.sums();
     kept->keep(KeptKind::CountedPhotons, 0, done);
+    done.sums = {};
     keptPhotons = done.planned;
   }
 }
@@ -99,7 +101,7 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes, C
     settings.mostBounces = std::max(settings.mostBounces, points_[i].bounces);
   }
   const PhotonSources sources(*tools.rays, *tools.shading, settings, *passes.log);
-  const std::vector<PhotonPass> all = photonPasses(passes.photons, passes.pixels);
+  const std::vector<PhotonPass> all = photonPasses(passes.photons, passes.shrinks);
   const float largestScale = all.empty() ? 1 : all.front().scale;
   auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power(),
                                                          sources.power() > 0 ? tools.rays : nullptr, largestScale);

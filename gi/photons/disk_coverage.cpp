@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kPlaces = 32;
 constexpr int kStep = 4;  ///< Few rays are those at every fourth place.
-/// A ray passes surfaces on which the photons do not count, such as a pane that lies on the floor.
+/// A ray passes surfaces on which photons do not count because they are turned away.
 constexpr int kMostPassed = 4;
 
 /// Tells whether a ray against the normal meets the surface at a place of the disk. Places lie on a spiral, each with

@@ -11,13 +11,15 @@ namespace {
 
 /// Photons that face a point's side by a smaller cosine lie on another surface.
 constexpr float kSameFacing = 0.7071f;
-/// Sums of 63 bits hold 2^15 times the power of all photons, and one of 10^9 photons still has 18 bits.
+/// Sums of 63 bits hold 2^15 times the power of all photons, divided by the area of a disk at scale 1. One of 10^9
+/// photons still has 18 bits.
 constexpr double kUnitsOfPower = 0x1p48;
 constexpr size_t kNumbers = 6, kColors = 3;
 
+/// Returns a box around a disk, with room for rounding: each photon on the disk must be in it.
 Bound3 boundOf(const MeasurementPoint& p, float scale) {
   const vec3 across = scale * p.radius * glm::sqrt(glm::max(vec3(0.0f), 1.0f - p.N * p.N));
-  const vec3 half = across + p.thickness(scale) * glm::abs(p.N);
+  const vec3 half = 1.001f * (across + p.thickness(scale) * glm::abs(p.N)) + 1e-6f * glm::abs(p.P);
   return {p.P - half, p.P + half};
 }
 

@@ -1,7 +1,7 @@
-// Private to gi: the irradiance at given points, by photons that are counted where they arrive and never kept (Knaus
-// and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). Passes of photons are independent of each
-// other; the estimate is their weighted mean. Sums are whole numbers, so that they are the same in any order. Space:
-// current. Power: W. Threads: count() may be called concurrently with itself alone.
+// Private to gi: the irradiance at given points, by photons that are counted where they arrive and kept for one pass
+// alone (Knaus and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach"). Passes of photons are
+// independent of each other; the estimate is their weighted mean. Sums are whole numbers, so that they are the same in
+// any order. Space: current. Power: W. Threads: count() may be called concurrently with itself alone.
 #pragma once
 #include <array>
 #include <memory>

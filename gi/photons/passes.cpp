@@ -7,29 +7,27 @@ namespace tomales {
 namespace {
 
 constexpr int64_t kFirstRound = 1 << 13, kMostPhotonsOfPass = 1 << 17;
-/// Returns the number of photons after which disks are as large as their micropolygons. The radius at which blur and
-/// noise are equal is a length of the scene, whatever the picture's size. A larger picture is made for finer detail. So
-/// the radius falls with the fourth root of the pixels, and that of a micropolygon with their square root. The factor
-/// was measured (docs/measured/indirect.md, "Caustics").
-double photonsOfUnitScale(int64_t pixels) { return 0x1p11 * std::pow(static_cast<double>(pixels), 1.5); }
+/// Disks are as large as their micropolygons after so many photons. Other numbers suit other scenes
+/// (docs/measured/indirect.md, "Caustics"): fewer suit small caustics, and more suit rooms in large pictures.
+constexpr double kPhotonsOfUnitScale = 0x1p28;
 
 /// The area of a disk falls with n^(alpha - 1) after n photons. With alpha = 2/3, noise and bias fall equally fast
 /// (Knaus and Zwicker 2011, section 4.3). The area in a round is the mean of those that it would have if disks shrank
 /// after each photon.
-double scaleOfRound(int64_t begin, int64_t end, double unit) {
-  const auto integral = [&](int64_t n) { return 1.5 * std::pow(static_cast<double>(n) / unit, 2.0 / 3); };
-  return std::sqrt((integral(end) - integral(begin)) * unit / static_cast<double>(end - begin));
+double scaleOfRound(int64_t begin, int64_t end) {
+  const auto integral = [](int64_t n) { return 1.5 * std::pow(static_cast<double>(n) / kPhotonsOfUnitScale, 2.0 / 3); };
+  return std::sqrt((integral(end) - integral(begin)) * kPhotonsOfUnitScale / static_cast<double>(end - begin));
 }
 
 int64_t dividedUp(int64_t a, int64_t b) { return (a + b - 1) / b; }
 
 }  // namespace
 
-std::vector<PhotonPass> photonPasses(int64_t photons, int64_t pixels) {
+std::vector<PhotonPass> photonPasses(int64_t photons, bool shrinks) {
   std::vector<PhotonPass> out;
   for (int64_t begin = 0, end; begin < photons; begin = end) {
     end = std::max(2 * begin, kFirstRound);
-    const double scale = pixels > 0 ? scaleOfRound(begin, end, photonsOfUnitScale(pixels)) : 1;
+    const double scale = shrinks ? scaleOfRound(begin, end) : 1;
     end = std::min(end, photons);
     const int64_t passes = 2 * dividedUp(end - begin, 2 * kMostPhotonsOfPass);
     for (int64_t i = 0, at = begin; i < passes && at < end; ++i) {

@@ -12,8 +12,8 @@ struct PhotonPass {
 };
 
 /// Returns passes of `photons` photons together. A round of passes sends as many as all rounds before it, and has one
-/// scale. So few grids are built, and the noise is looked at rarely: if it were looked at often, it would at some time
-/// be low by chance. `pixels`: of the picture, for disks that shrink from round to round. 0: the scale is always 1.
-std::vector<PhotonPass> photonPasses(int64_t photons, int64_t pixels);
+/// scale. So rays look for edges rarely, and so is the noise looked at: if it were looked at often, it would at some
+/// time be low by chance. `shrinks`: disks shrink from round to round. Otherwise the scale is 1.
+std::vector<PhotonPass> photonPasses(int64_t photons, bool shrinks);
 
 }  // namespace tomales

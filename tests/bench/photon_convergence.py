@@ -38,7 +38,7 @@ args.folder.mkdir(parents=True, exist_ok=True)
 
 
 def picture(scene, method, photons, seed):
-    """Returns the pixels' luminance, a list in the order of places."""
+    """Returns the mean channel of each pixel, in the order of places."""
     name = f"{scene}-{method}-{photons:g}-{seed}.exr"
     if not (args.folder / name).exists():
         (args.folder / (scene + ".rib")).write_text(caustic_scenes.text(scene, FLOOR))
@@ -51,10 +51,6 @@ def mean_of(pictures):
     """Returns the mean picture, and the variance of its pixels in the mean over the picture."""
     columns = list(zip(*pictures))
     return [statistics.fmean(c) for c in columns], statistics.fmean(statistics.variance(c) for c in columns) / len(pictures)
-
-
-def rms(values):
-    return math.sqrt(max(0.0, statistics.fmean(v * v for v in values)))
 
 
 for scene in args.scenes:

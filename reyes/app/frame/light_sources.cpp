@@ -42,8 +42,7 @@ void setPhotons(GiServices& services, const FrameOfLight& frame) {
   passes.noise = frame.settings.light.photonNoise;
   passes.seed = lightSeedOf(frame.settings);
   passes.specularFirstOnly = causticsAlone;
-  const Options& options = frame.scene.options;
-  if (!causticsAlone) passes.pixels = int64_t{options.xResolution} * options.yResolution;
+  passes.shrinks = !causticsAlone;
   passes.log = &frame.log;
   passes.tell = [log = &frame.log](int64_t sent, size_t points, double noise) {
     std::string text = fmt::format("{} photons were counted at {} points", sent, points);

@@ -81,9 +81,10 @@ bool IncludeSearch::isPermitted(const std::string& path) const {
   });
 }
 
-bool IncludeSearch::isHeaderOfCollection(const std::string& path, const std::string& real) const {
+bool IncludeSearch::isHeaderOfCollection(const std::string& folder, const std::string& wanted,
+                                         const std::string& real) const {
   const fs::path file = real;
-  return file.extension() == ".h" && fs::absolute(path).lexically_normal() == file &&
+  return file.extension() == ".h" && (fs::path(realPath(folder)) / wanted).lexically_normal() == file &&
          std::ranges::find(collections_, file.parent_path().string()) != collections_.end();
 }
 
@@ -98,7 +99,7 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     const std::string path = wanted.starts_with('/') ? wanted : folder == "." ? wanted : folder + "/" + wanted;
     const std::string real = realPath(path);
     if (real.empty()) continue;
-    if (isPermitted(real) || isHeaderOfCollection(path, real)) return readFile(path);
+    if (isPermitted(real) || isHeaderOfCollection(folder, wanted, real)) return readFile(path);
     isThere = true;
     out.failure = "it is outside of the folders from which files may be included";
   }

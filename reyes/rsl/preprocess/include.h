@@ -27,8 +27,8 @@ class IncludeSearch {
 
  private:
   bool isPermitted(const std::string& realPath) const;
-  /// Returns false if `path` leads over symbolic links to the real one.
-  bool isHeaderOfCollection(const std::string& path, const std::string& real) const;
+  /// Returns false if `wanted` leads over symbolic links from the folder to the real path.
+  bool isHeaderOfCollection(const std::string& folder, const std::string& wanted, const std::string& real) const;
   std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.

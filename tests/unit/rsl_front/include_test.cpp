@@ -114,6 +114,8 @@ TEST_F(Includes, LookForHeadersWhereCollectionsOfShadersKeepThem) {
   EXPECT_EQ(read("#include \"../x.h\"\n1"), "above 1") << "where it says";
   write("include/normals.h", "theirs");
   EXPECT_EQ(read("#include \"../include/normals.h\"\n1"), "theirs 1");
+  fs::create_symlink(root_ / "include/y.h", root_ / "include/link.h");
+  EXPECT_NE(read("#include \"../include/link.h\"\n").find("!cannot include"), std::string::npos) << "a link";
 }
 
 TEST_F(Includes, LookForNothingElseThere) {
