@@ -50,7 +50,7 @@ struct PhotonPasses {
   bool specularFirstOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
   bool shrinks = false;  ///< The disks on which photons count shrink while photons are sent. Otherwise each has the
                          ///< area of its micropolygon.
-  Log* log = nullptr;  ///< Must be set, as the next.
+  Log* log = nullptr;    ///< Must be set, as the next.
   /// Is told, at the end, how many photons were sent, how many points there are, and their noise.
   std::function<void(int64_t sent, size_t points, double noise)> tell;
 };
