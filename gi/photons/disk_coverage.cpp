@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr int kPlaces = 32;
-constexpr int kStep = 4;  ///< Few rays are those at every fourth place.
+constexpr int kStep = 4;  ///< isCovered() asks at every fourth place alone.
 /// A ray passes surfaces on which photons do not count because they are turned away.
 constexpr int kMostPassed = 4;
 
