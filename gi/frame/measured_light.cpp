@@ -21,16 +21,14 @@ void fields(A& a, PhotonSums& x) {
 
 /// What has been counted, and is kept for a run that resumes.
 struct CountedPhotons {
-  uint64_t passes = 0;
-  int64_t planned = 0;
   int64_t sent = 0;  ///< In each pass, every light sends one photon or more.
   PhotonSums sums{};
 };
 
 template <class A>
 void fields(A& a, CountedPhotons& x) {
-  auto& [passes, planned, sent, sums] = x;
-  each(a, passes, planned, sent, sums);
+  auto& [sent, sums] = x;
+  each(a, sent, sums);
 }
 
 namespace {
@@ -39,30 +37,36 @@ namespace {
 /// time.
 bool isWorthKeeping(int64_t fresh, int64_t kept, int64_t all) { return fresh >= std::max(kept / 4, all / 32); }
 
-CountedPhotons resumed(const Checkpoint* kept, PhotonMeasurement& measurement) {
+/// Returns how many photons an earlier run has sent that are in the measurement now.
+int64_t resumed(const Checkpoint* kept, PhotonMeasurement& measurement) {
   CountedPhotons out;
-  return kept && kept->take(KeptKind::CountedPhotons, 0, out) && measurement.resume(out.sums) ? out : CountedPhotons{};
+  return kept && kept->take(KeptKind::CountedPhotons, 0, out) && measurement.resume(std::move(out.sums)) ? out.sent : 0;
 }
 
-void countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>& all, const PhotonPasses& passes,
-                  Checkpoint* kept, const std::function<void(float)>& progress, PhotonMeasurement& measurement,
-                  CountedPhotons& done) {
-  int64_t keptPhotons = done.planned;
-  while (done.passes < all.size()) {
-    const PhotonPass& pass = all[done.passes++];
+/// Counts the passes that the measurement lacks. Returns the number of photons, with those that were `sent` before.
+int64_t countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>& all, const PhotonPasses& passes,
+                     Checkpoint* kept, const std::function<void(float)>& progress, int64_t sent,
+                     PhotonMeasurement& measurement) {
+  const size_t resumedAt = measurement.sums().passes;
+  int64_t planned = 0, keptPhotons = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const PhotonPass& pass = all[i];
+    planned += pass.photons;
+    if (i < resumedAt) {
+      keptPhotons = planned;
+      continue;
+    }
     measurement.beginPass(pass.scale, static_cast<double>(pass.photons) / static_cast<double>(passes.photons));
-    done.sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(done.passes)),
-                              pass.photons, [&](std::span<const StoredPhoton> p) { measurement.count(p); });
+    sent += sources.pass(hashCombine(passes.seed, randomStream("pass"), static_cast<uint32_t>(i + 1)), pass.photons,
+                         [&](std::span<const StoredPhoton> p) { measurement.count(p); });
     measurement.endPass();
-    done.planned += pass.photons;
-    if (progress) progress(static_cast<float>(done.planned) / static_cast<float>(passes.photons));
-    if (pass.endsRound && measurement.noise() >= 0 && measurement.noise() < passes.noise) return;
-    if (!kept || !isWorthKeeping(done.planned - keptPhotons, keptPhotons, passes.photons)) continue;
-    done.sums = measurement.sums();
-    kept->keep(KeptKind::CountedPhotons, 0, done);
-    done.sums = {};
-    keptPhotons = done.planned;
+    if (progress) progress(static_cast<float>(planned) / static_cast<float>(passes.photons));
+    if (pass.endsRound && measurement.noise() >= 0 && measurement.noise() < passes.noise) break;
+    if (!kept || !isWorthKeeping(planned - keptPhotons, keptPhotons, passes.photons)) continue;
+    kept->keep(KeptKind::CountedPhotons, 0, CountedPhotons{sent, measurement.sums()});
+    keptPhotons = planned;
   }
+  return sent;
 }
 
 MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const ShadePoints& points, TmConstVec3 N,
@@ -105,13 +109,12 @@ void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes, C
   const float largestScale = all.empty() ? 1 : all.front().scale;
   auto measurement = std::make_unique<PhotonMeasurement>(std::move(points_), sources.power(),
                                                          sources.power() > 0 ? tools.rays : nullptr, largestScale);
-  CountedPhotons done = resumed(kept, *measurement);
-  const int64_t before = done.sent;
-  if (measurement->size() > 0 && sources.power() > 0)
-    countPhotons(sources, all, passes, kept, progress, *measurement, done);
-  stats.rays.photon += done.sent - before;
-  stats.photons.emitted += done.sent - before;
-  passes.tell(done.sent, measurement->size(), measurement->noise());
+  const int64_t before = resumed(kept, *measurement);
+  const bool hasLight = measurement->size() > 0 && sources.power() > 0;
+  const int64_t sent = hasLight ? countPhotons(sources, all, passes, kept, progress, before, *measurement) : 0;
+  stats.rays.photon += sent - before;
+  stats.photons.emitted += sent - before;
+  passes.tell(sent, measurement->size(), measurement->noise());
   measurement_ = std::move(measurement);
 }
 

@@ -6,8 +6,6 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kFan = 8;
-
 bool holds(const Bound3& b, const vec3& p) { return b.lo == glm::min(b.lo, p) && b.hi == glm::max(b.hi, p); }
 
 }  // namespace
@@ -27,42 +25,25 @@ CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSetting
       radius_[i] = heap.size() == most ? std::sqrt(heap.front().distance2) : reach;
     }
   });
-  std::vector<Bound3> level;
-  for (size_t i = 0; i < radius_.size(); ++i) {
+  boxes_ = RunBoxes(radius_.size(), [&](size_t i) {
     const vec3& P = tree_.position(static_cast<uint32_t>(i));
-    level.push_back({P - radius_[i], P + radius_[i]});
-  }
-  while (level.size() > 1 || (boxes_.empty() && !level.empty())) {
-    std::vector<Bound3> wider((level.size() + kFan - 1) / kFan);
-    for (size_t i = 0; i < level.size(); ++i) wider[i / kFan].extend(level[i]);
-    boxes_.push_back(wider);
-    level = std::move(wider);
-  }
-}
-
-/// Calls f for the photons of a box whose own boxes may hold P.
-template <class Visit>
-void CausticPhotons::visit(size_t level, size_t box, const vec3& P, float wider, const Visit& f) const {
-  if (!holds(boxes_[level][box].grown(wider), P)) return;
-  const size_t first = box * kFan, below = level == 0 ? radius_.size() : boxes_[level - 1].size();
-  for (size_t i = first; i < std::min(first + kFan, below); ++i)
-    if (level == 0)
-      f(static_cast<uint32_t>(i));
-    else
-      visit(level - 1, i, P, wider, f);
+    return Bound3{P - radius_[i], P + radius_[i]};
+  });
 }
 
 vec3 CausticPhotons::irradiance(const vec3& P, const vec3& N, int surface, float radius) const {
   vec3 E(0.0f);
-  if (boxes_.empty()) return E;
   // The kernel has a variance of r^2 / 6 along each axis, and a square of edges 2 R one of R^2 / 3.
   const float own2 = 2 * radius * radius;
-  visit(boxes_.size() - 1, 0, P, std::sqrt(own2), [&](uint32_t i) {
-    const float r2 = radius_[i] * radius_[i] + own2, to2 = tree_.distance2(i, P, N, surface);
-    if (!(to2 < r2)) return;
-    const float* w = tree_.photons().at(i) + power_;
-    E += vec3(w[0], w[1], w[2]) * (2 * (1 - to2 / r2) / (kPi * r2));
-  });
+  const float wider = std::sqrt(own2);
+  boxes_.visit([&](const Bound3& box) { return holds(box.grown(wider), P); },
+               [&](size_t at) {
+                 const auto i = static_cast<uint32_t>(at);
+                 const float r2 = radius_[i] * radius_[i] + own2, to2 = tree_.distance2(i, P, N, surface);
+                 if (!(to2 < r2)) return;
+                 const float* w = tree_.photons().at(i) + power_;
+                 E += vec3(w[0], w[1], w[2]) * (2 * (1 - to2 / r2) / (kPi * r2));
+               });
   return E;
 }
 

@@ -5,6 +5,7 @@
 // in the dark too, because there it looks far. Space: that of the photons. Threads: lookups are concurrent.
 #pragma once
 #include "gi/photons/irradiance.h"
+#include "gi/photons/run_boxes.h"
 #include "gi/photons/tree.h"
 
 namespace tomales {
@@ -19,15 +20,10 @@ class CausticPhotons {
   vec3 irradiance(const vec3& P, const vec3& N, int surface, float radius) const;
 
  private:
-  template <class Visit>
-  void visit(size_t level, size_t box, const vec3& P, float wider, const Visit& f) const;
-
   PhotonTree tree_;
   int power_;                  ///< Offset of the channel.
   std::vector<float> radius_;  ///< Radius of each photon's disk, in the order of the tree.
-  /// Levels of boxes around the disks: a box of the lowest level holds a number of photons that follow each other in
-  /// the tree, a box of the next as many boxes, and so on up to one.
-  std::vector<std::vector<Bound3>> boxes_;
+  RunBoxes boxes_;             ///< Around the disks.
 };
 
 }  // namespace tomales

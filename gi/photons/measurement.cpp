@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gi/photons/disk_coverage.h"
+#include "reyes/base/morton.h"
 #include "reyes/base/parallel.h"
 
 namespace tomales {
@@ -38,7 +39,7 @@ PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, doubl
       unit_(power > 0 ? power / kUnitsOfPower : 1),
       rays_(rays),
       covered_(points_.size(), 1.0f),
-      power_(kNumbers * points_.size()) {
+      sums_{.power = std::vector<int64_t>(kNumbers * points_.size())} {
   std::vector<vec3> places;
   for (const MeasurementPoint& p : points_) places.push_back(p.P);
   order_ = mortonOrder(places);
@@ -52,9 +53,9 @@ PhotonMeasurement::PhotonMeasurement(std::vector<MeasurementPoint> points, doubl
 }
 
 void PhotonMeasurement::beginPass(float scale, double weight) {
-  ++passes_;
+  ++sums_.passes;
   weight_ = weight;
-  weights_[static_cast<size_t>(passes_ & 1)] += weight;
+  sums_.weights[(sums_.passes & 1)] += weight;
   if (scale == scale_) return;
   scale_ = scale;
   cover();
@@ -83,7 +84,7 @@ void PhotonMeasurement::endPass() {
 void PhotonMeasurement::measure(uint32_t point, const PhotonArrivals& arrivals) {
   const MeasurementPoint& p = points_[point];
   const double units = weight_ / (unit_ * double{scale_} * double{scale_} * double{covered_[point]});
-  int64_t* const sums = &power_[kNumbers * point + kColors * static_cast<size_t>(passes_ & 1)];
+  int64_t* const sums = &sums_.power[kNumbers * point + kColors * (sums_.passes & 1)];
   arrivals.visit(boundOf(p, scale_), [&](const StoredPhoton& photon) {
     if (photon.bounces > p.bounces || !p.holds(photon.P, photon.N, scale_)) return;
     for (int c = 0; c < 3; ++c) sums[c] += std::llround(double{photon.power[c]} * units);
@@ -91,29 +92,25 @@ void PhotonMeasurement::measure(uint32_t point, const PhotonArrivals& arrivals) 
 }
 
 vec3 PhotonMeasurement::half(size_t point, size_t parity) const {
-  if (weights_[parity] <= 0) return vec3(0.0f);
+  if (sums_.weights[parity] <= 0) return vec3(0.0f);
   const double r = double{points_[point].radius};
-  const double scale = unit_ / (double{kPi} * double{kPi} * r * r * weights_[parity]);
+  const double scale = unit_ / (double{kPi} * double{kPi} * r * r * sums_.weights[parity]);
   vec3 out;
   for (int c = 0; c < 3; ++c)
     out[c] = static_cast<float>(
-        static_cast<double>(power_[kNumbers * point + kColors * parity + static_cast<size_t>(c)]) * scale);
+        static_cast<double>(sums_.power[kNumbers * point + kColors * parity + static_cast<size_t>(c)]) * scale);
   return out;
 }
 
 vec3 PhotonMeasurement::overPi(size_t point) const {
-  if (passes_ == 0) return vec3(0.0f);
-  const auto odd = static_cast<float>(weights_[1] / (weights_[0] + weights_[1]));
+  if (sums_.passes == 0) return vec3(0.0f);
+  const auto odd = static_cast<float>(sums_.weights[1] / (sums_.weights[0] + sums_.weights[1]));
   return half(point, 1) * odd + half(point, 0) * (1 - odd);
 }
 
-PhotonSums PhotonMeasurement::sums() const { return {passes_, weights_, power_}; }
-
-bool PhotonMeasurement::resume(const PhotonSums& sums) {
-  if (sums.power.size() != power_.size()) return false;
-  passes_ = sums.passes;
-  weights_ = sums.weights;
-  power_ = sums.power;
+bool PhotonMeasurement::resume(PhotonSums sums) {
+  if (sums.power.size() != sums_.power.size()) return false;
+  sums_ = std::move(sums);
   return true;
 }
 
@@ -124,7 +121,7 @@ double PhotonMeasurement::noise() const {
     difference += std::abs(even - odd) / 2;
     mean += (even + odd) / 2;
   }
-  return passes_ > 1 && mean > 0 ? difference / mean : -1;
+  return sums_.passes > 1 && mean > 0 ? difference / mean : -1;
 }
 
 }  // namespace tomales

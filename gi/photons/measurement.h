@@ -27,7 +27,7 @@ struct MeasurementPoint {
 
 /// What has been counted, without the points.
 struct PhotonSums {
-  int64_t passes = 0;
+  size_t passes = 0;
   std::array<double, 2> weights{};  ///< Sums of the weights of even and odd passes.
   /// Weighted power over scale^2: for each point that of red, green and blue, of even passes and then of odd ones.
   std::vector<int64_t> power{};
@@ -54,10 +54,10 @@ class PhotonMeasurement {
   /// passes, or if no photon counted.
   double noise() const;
   size_t size() const { return points_.size(); }
-  PhotonSums sums() const;
+  const PhotonSums& sums() const { return sums_; }
   /// Goes on from sums(), which were those of an equal measurement. Returns false, and stays as it is, if they have
   /// another number of points.
-  bool resume(const PhotonSums& sums);
+  bool resume(PhotonSums sums);
 
  private:
   void measure(uint32_t point, const PhotonArrivals& arrivals);
@@ -72,9 +72,7 @@ class PhotonMeasurement {
   std::vector<float> covered_;   ///< The part of each point's disk that lies on a surface, at the current scale.
   float scale_ = 0;
   double weight_ = 0;  ///< Of the pass that was begun last.
-  int64_t passes_ = 0;
-  std::array<double, 2> weights_{};  ///< As in PhotonSums, like the next.
-  std::vector<int64_t> power_;
+  PhotonSums sums_;
   std::unique_ptr<std::mutex> counting_ = std::make_unique<std::mutex>();
   std::vector<StoredPhoton> counted_;  ///< The photons of this pass.
 };

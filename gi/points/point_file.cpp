@@ -117,16 +117,9 @@ PointCloud PointFile::readAll() const {
 }
 
 void writePointFile(const PointCloud& cloud, const std::string& path, const MadeFrom& madeFrom) {
-  const Bound3 bound = cloud.bound();
-  const float scale = static_cast<float>((1 << 21) - 1) / std::max(maxComponent(bound.size()), 1e-30f);
-  std::vector<uint64_t> code(cloud.count());
-  for (size_t i = 0; i < code.size(); ++i) code[i] = mortonPlace(glm::uvec3((cloud.position[i] - bound.lo) * scale));
-  std::vector<uint32_t> order(cloud.count());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
   PointFileWriter file(path, cloud.channels);
-  for (const uint32_t i : order) file.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
+  for (const uint32_t i : mortonOrder(cloud.position))
+    file.add(cloud.position[i], cloud.normal[i], cloud.radius[i], cloud.at(i));
   file.finish(madeFrom);
 }
 

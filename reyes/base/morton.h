@@ -1,6 +1,8 @@
 // Places on Morton's curve, along which points near each other in space stand near each other in a list.
 #pragma once
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "reyes/base/math.h"
 
@@ -30,5 +32,9 @@ inline uint32_t mortonPlace(const vec3& p, const Bound3& box) {
   };
   return static_cast<uint32_t>(mortonPlace(glm::uvec3(axis(0), axis(1), axis(2))));
 }
+
+/// Returns the numbers of the points in the order of the curve, by 21 bits for the longest axis. Points of one place
+/// stay in their order.
+std::vector<uint32_t> mortonOrder(std::span<const vec3> points);
 
 }  // namespace tomales

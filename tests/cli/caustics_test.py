@@ -14,7 +14,7 @@ t = Suite()
 SCENES["shining ring"] = (SCENES["ring"][0], SCENES["ring"][1].replace('"mirror" "color specularcolor" [0.95 0.78 0.45]', '"shinymetal" "Ks" [1] "Ka" [0] "roughness" [0.3]'))
 METHODS = {"reference": ("--samples", "16", "--photons", "300000"), "progressive": ("--photons", "400000"), "atlas": ("--photons", "150000")}
 SEEDS = 3
-# A share of the mean is allowed, because each method blurs: over a micropolygon, over four and less, or over 50 photons, where the ring's light is a
+# A share of the mean is allowed, because each method blurs: over a micropolygon, over seven and fewer, or over 50 photons, where the ring's light is a
 # thin line.
 BLUR = 0.02
 

@@ -337,10 +337,12 @@ scene("raised", 'LightSource "lamp" 1 Attribute "displacementbound" "sphere" [0.
 render("a surface that looks for light before it displaces", "raised")
 t.expect(sum(c != BLACK for c in picture("raised").values()) == far, "moves the surface as a displacement does")
 
+# Bases of splines have two names, and others are told of.
 for basis, code in (("bspline", None), ("catrom", None), ("solvecatrom", None), ("bogus", 'basis "bogus"')):
     t.write("curve.sl", f'surface curve() {{ Oi = 1; Ci = spline("{basis}", s, 0, 0, 1, 1); }}\n')
     scene("curve", 'Surface "curve"')
     render(f"a spline of basis {basis}", "curve", 0, *([code] if code else []))
+
 # A stranger's shader cannot do harm.
 t.write("endless.sl", "surface endless() { float i = 0; while (i < 1) { i = i * .5; } Ci = i; Oi = 1; }\n")
 scene("endless", 'Surface "endless"')
