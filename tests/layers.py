@@ -37,7 +37,7 @@ THIRD_PARTY = {
     "assimp/": ["reyes/bindings/assimp/"],
     "OpenEXR/": ["reyes/image/exr_", "reyes/pictures/exr_reader.cpp"],
     "Imath": ["reyes/image/exr_", "reyes/pictures/exr_reader.cpp"],
-    "tiff": ["reyes/image/tiff_file.cpp"],
+    "tiff": ["reyes/image/tiff_module.cpp"],
     "png.h": ["reyes/image/png_file.cpp"],
     "libdeflate.h": ["reyes/image/exr_rows.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],
@@ -46,9 +46,9 @@ THIRD_PARTY = {
     "httplib.h": ["reyes/app/relight/http_module.cpp"],
     "zstd.h": ["reyes/base/chunk_file.cpp", "reyes/base/record_file.cpp"],
     "xxhash.h": ["reyes/base/checksum.cpp"],
-    "hwy/": ["reyes/base/vector.h"],
+    "hwy/": ["reyes/base/vector.h", "reyes/base/vector_targets.cpp"],
     "zlib.h": ["reyes/rib/stream.cpp"],
-    "zip.h": ["reyes/rib/zip_member.cpp"],
+    "zip.h": ["reyes/rib/zip_module.cpp"],
 }
 
 bad = []

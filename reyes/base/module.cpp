@@ -20,7 +20,7 @@ void* openModule(const char* file, std::string& error) {
 
 }  // namespace
 
-void* moduleFunction(const char* file, const char* function, std::string& error) {
+void* findInModule(const char* file, const char* function, std::string& error) {
   std::string problem;
   void* const handle = openModule(file, problem);
   void* const found = handle ? dlsym(handle, function) : nullptr;

@@ -8,18 +8,10 @@
 
 namespace tomales {
 const PictureLibrary* pictureLibrary(std::string& error) {
-  struct Loaded {
-    const PictureLibrary* library = nullptr;
-    std::string error;
-    Loaded() {
-      using Function = const PictureLibrary* (*)();
-      if (void* function = moduleFunction("libtomales_openimageio.so", "tomalesPictureLibrary", error))
-        library = reinterpret_cast<Function>(function)();
-    }
-  };
-  static const Loaded loaded;
-  if (!loaded.library) error = loaded.error;
-  return loaded.library;
+  static const ModuleFunction<const PictureLibrary*()> library("libtomales_openimageio.so", "tomalesPictureLibrary");
+  if (library.call) return library.call();
+  error = library.error;
+  return nullptr;
 }
 
 Making makeTexture(const TextureRecipe& recipe, std::string& error) {

@@ -1,10 +1,9 @@
 #include "reyes/rib/zip_member.h"
 
-#include <zip.h>
-
 #include <filesystem>
-#include <memory>
-#include <string>
+
+#include "reyes/base/module.h"
+#include "reyes/rib/zip_module.h"
 
 namespace tomales::rib {
 
@@ -16,31 +15,15 @@ std::string zipOf(const std::string& path) {
 }
 
 ZipSource openZipMember(const std::string& path, size_t harmless_bytes, size_t largestRatio, std::string& why) {
-  const auto refuse = [&](std::string reason) {
-    why = std::move(reason);
-    return ZipSource();
-  };
   const std::string zip = zipOf(path);
-  if (zip.empty()) return refuse("there is no such zip file");
-  const std::shared_ptr<zip_t> archive(zip_open(zip.c_str(), ZIP_RDONLY, nullptr), [](zip_t* z) {
-    if (z) zip_discard(z);
-  });
-  if (!archive) return refuse(zip + " is no zip file, or damaged");
-  const std::string member = path.substr(zip.size() + 1);
-  zip_stat_t stat;
-  if (zip_stat(archive.get(), member.c_str(), 0, &stat) != 0) return refuse(zip + " holds no file of that name");
-  const bool sized = (stat.valid & ZIP_STAT_SIZE) && (stat.valid & ZIP_STAT_COMP_SIZE);
-  if (!sized || (stat.size > harmless_bytes && stat.size / largestRatio > stat.comp_size))
-    return refuse("it swells beyond " + std::to_string(harmless_bytes >> 20) + " MiB and " +
-                  std::to_string(largestRatio) + " times its size");
-  const std::shared_ptr<zip_file_t> file(zip_fopen(archive.get(), member.c_str(), 0), [archive](zip_file_t* f) {
-    if (f) zip_fclose(f);
-  });
-  if (!file) return refuse("it is packed in a way that is not known, or encrypted");
-  return [file](char* buffer, size_t size) {
-    const zip_int64_t n = zip_fread(file.get(), buffer, size);
-    return n < 0 ? kBrokenZip : static_cast<size_t>(n);
-  };
+  if (zip.empty()) {
+    why = "there is no such zip file";
+    return {};
+  }
+  static const ModuleFunction<OpenZipMember> open("libtomales_zip.so", "tomalesOpenZipMember");
+  if (open.call) return open.call(zip, path.substr(zip.size() + 1), harmless_bytes, largestRatio, why);
+  why = open.error;
+  return {};
 }
 
 }  // namespace tomales::rib

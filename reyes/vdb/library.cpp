@@ -9,16 +9,10 @@ std::unique_ptr<DensityGrid> readVdb(const std::string& path, const std::string&
                                      std::vector<std::string>& notes, std::string& error) {
   error = inputProblem(path);
   if (!error.empty()) return nullptr;
-  static const VdbModule module = [] {
-    VdbModule out;
-    out.read = reinterpret_cast<ReadVdb*>(moduleFunction("libtomales_openvdb.so", "tomalesReadVdb", out.error));
-    return out;
-  }();
-  if (!module.read) {
-    error = module.error;
-    return nullptr;
-  }
-  return module.read(path, grid, bound, notes, error);
+  static const ModuleFunction<ReadVdb> read("libtomales_openvdb.so", "tomalesReadVdb");
+  if (read.call) return read.call(path, grid, bound, notes, error);
+  error = read.error;
+  return nullptr;
 }
 
 }  // namespace tomales

@@ -6,9 +6,5 @@ namespace tomales {
 
 using ReadVdb = std::unique_ptr<DensityGrid>(const std::string& path, const std::string& grid, const Bound3& bound,
                                              std::vector<std::string>& notes, std::string& error);
-struct VdbModule {
-  ReadVdb* read = nullptr;
-  std::string error;
-};
 
 }  // namespace tomales

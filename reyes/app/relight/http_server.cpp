@@ -9,13 +9,11 @@
 namespace tomales {
 
 std::unique_ptr<HttpServer> HttpServer::bind(int port) {
-  using Bind = HttpServer* (*)(int);
-  std::string error;
-  void* const function = moduleFunction("libtomales_http.so", "tomalesBindHttpServer", error);
-  if (!function)
+  static const ModuleFunction<HttpServer*(int port)> bind("libtomales_http.so", "tomalesBindHttpServer");
+  if (!bind.call)
     throw std::runtime_error(
-        fmt::format("the module with the server is neither beside this program nor in ../lib/tomales: {}", error));
-  return std::unique_ptr<HttpServer>(reinterpret_cast<Bind>(function)(port));
+        fmt::format("the module with the server is neither beside this program nor in ../lib/tomales: {}", bind.error));
+  return std::unique_ptr<HttpServer>(bind.call(port));
 }
 
 }  // namespace tomales

@@ -147,14 +147,8 @@ TEST(Resolve, DoesNotDependOnTheSizeOfBucketsWithManySamples) { expectNoTraceOfB
 /// Lets Highway choose among some of the vector widths only, while it lives.
 class Widths {
  public:
-  explicit Widths(int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(targets);
-  }
-  ~Widths() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
-  }
+  explicit Widths(int64_t targets) { hwy::GetChosenTarget().Update(targets); }
+  ~Widths() { hwy::GetChosenTarget().DeInit(); }
 };
 
 TEST(Resolve, HasTheSameBitsForEveryVectorWidth) {
