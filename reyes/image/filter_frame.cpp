@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-constexpr int kFilterBlockRows = 16,
-              kFilterBlockColumns = 256;  ///< Pixels that are filtered at a time, whose contributions are in memory.
+constexpr int kFilterBlockRows = 32,
+              kFilterBlockColumns = 128;  ///< Pixels that are filtered at a time, whose contributions are in memory.
 
 /// The floats of a pixel that share a filter.
 struct Pass {
@@ -124,31 +124,24 @@ struct FrameFilter::Impl {
   /// Weighted sums of the samples around each pixel of a block: of the floats of a pass, and of the weight of samples
   /// that see something if any float has a fill. The order for each pixel is rows, columns and fragments.
   PixelSums sumsOf(const Pass& pass, const PixelRect& block, const Around& around) const {
-    const size_t floats = pass.floats.size(), places = static_cast<size_t>(pass.weights.places()),
-                 step = static_cast<size_t>(resolved.width());
+    const size_t floats = pass.floats.size(), step = static_cast<size_t>(resolved.width());
     const bool fills = pass.anyFill(), copies = fills || !pass.together();
     PixelSums sums(pass.weights, block, static_cast<int>(floats + fills));
     const auto wide = static_cast<size_t>(sums.width());
-    AlignedVector<float> weights, values;
+    AlignedVector<float> values;
     for (int y = around.rect.y0; y < around.rect.y1; ++y) {
       const int* patterns = around.row(y);
       resolved.forRow(around.rect.x0, around.rect.x1, y, [&](int x, const Seen& here) {
         const size_t count = here.list.size();
         if (count == 0) return;
-        if (weights.size() < count * places) {
-          weights.resize(count * places);
-          values.resize(count * wide);
-        }
-        for (size_t c = 0; c < count; ++c)
-          pass.weights.sums(patterns[x], here.list[c].samples, here.list[c].word, weights.data() + c * places);
-        if (!copies)
-          return sums.add(x, y, {static_cast<int>(count), weights.data(), here.values + pass.floats[0].from, step});
+        if (!copies) return sums.add(x, y, patterns[x], {here.list, here.values + pass.floats[0].from, step});
+        if (values.size() < count * wide) values.resize(count * wide);
         for (size_t c = 0; c < count; ++c) {
           float* to = values.data() + c * wide;
           for (size_t k = 0; k < floats; ++k) to[k] = here.values[c * step + pass.floats[k].from];
           if (fills) to[floats] = 1;
         }
-        sums.add(x, y, {static_cast<int>(count), weights.data(), values.data(), wide});
+        sums.add(x, y, patterns[x], {here.list, values.data(), wide});
       });
     }
     return sums;

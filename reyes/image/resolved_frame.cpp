@@ -17,20 +17,23 @@ ResolvedFrame::ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, 
 void ResolvedFrame::resolve(size_t index, const DeepTile& tile) {
   std::unique_ptr<Compositor> compositor = takeCompositor();
   resolved_[index] = std::make_unique<ResolvedTile>(compositor->resolve(tile));
-  noise_[index] = noiseOf(*resolved_[index]);
+  noise_[index] = noiseOf(*resolved_[index], width_, frame_.samplesPerPixel);
   const std::lock_guard lock(mutex_);
   compositors_.push_back(std::move(compositor));
 }
 
-ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile) const {
+TOMALES_HOT ResolvedFrame::TileNoise ResolvedFrame::noiseOf(const ResolvedTile& tile, int width, int samples) {
   TileNoise out;
-  const auto all = static_cast<float>(frame_.samplesPerPixel);
-  for (size_t pixel = 0; pixel + 1 < tile.first.size() && frame_.samplesPerPixel > 1; ++pixel) {
+  if (samples < 2) return out;
+  const auto all = static_cast<float>(samples);
+  const float* color = tile.values.data();
+  const Contribution* seen = tile.contributions.data();
+  for (size_t pixel = 0; pixel + 1 < tile.first.size(); ++pixel) {
     float sum = 0, squares = 0;
-    for (size_t c = tile.first[pixel]; c < tile.first[pixel + 1]; ++c) {
-      const float* color = tile.values.data() + c * static_cast<size_t>(width_);
+    for (const Contribution* end = tile.contributions.data() + tile.first[pixel + 1]; seen != end;
+         ++seen, color += width) {
       const float light = luminance(vec3(color[0], color[1], color[2])),
-                  count = static_cast<float>(std::popcount(tile.contributions[c].samples));
+                  count = static_cast<float>(std::popcount(seen->samples));
       sum += count * light;
       squares += count * light * light;
     }

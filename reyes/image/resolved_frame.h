@@ -64,7 +64,8 @@ class ResolvedFrame {
     PixelNoise sums;
     int lit = 0;  ///< Number of pixels with light.
   };
-  TileNoise noiseOf(const ResolvedTile& tile) const;
+  /// `width`: floats of a contribution; `samples`: those of a pixel.
+  static TileNoise noiseOf(const ResolvedTile& tile, int width, int samples);
 
   const DeepFrame& frame_;
   const FrameOutput& output_;

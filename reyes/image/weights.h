@@ -1,5 +1,7 @@
 // Private to reyes/image: filter weights of all samples that can reach a pixel.
 #pragma once
+#include <span>
+
 #include "reyes/image.h"
 #include "reyes/image/composite.h"
 
@@ -50,22 +52,20 @@ class WeightTable {
   /// Returns the sums of all cells of a pattern, by rows, padded: places(), then zeros.
   int places() const { return stride_; }
   const float* sums(int pattern) const { return sums_.data() + static_cast<ptrdiff_t>(pattern) * stride_; }
-  /// Writes the sums of the samples of a mask for all cells, as sum() gives them.
-  void sums(int pattern, uint64_t mask, uint16_t word, float* out) const;
-
- private:
+  /// Returns the weights of the samples of a pattern from a word of 64 on: places() for each sample.
   const float* of(int pattern, uint16_t word) const {
     return weights_.data() + (static_cast<ptrdiff_t>(pattern) * count_ + ptrdiff_t{64} * word) * stride_;
   }
+
+ private:
   int cells_, stride_, count_;
   AlignedVector<float> weights_, sums_;
 };
 
-/// The contributions of a pixel, in order: `count` runs of floats, `step` apart, each with a row of weights as in
-/// WeightTable::sums().
-struct Weighted {
-  int count;
-  const float *weights, *values;
+/// The contributions of a pixel, in order, with a run of floats for each, `step` apart.
+struct SeenFloats {
+  std::span<const Contribution> list;
+  const float* values;
   size_t step;
 };
 
@@ -76,8 +76,9 @@ class PixelSums {
   static_assert(kWide <= ResolvedTile::kMargin);
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
-  /// Adds all contributions of pixel (x, y): width() floats each; floats beyond those asked for may have any value.
-  void add(int x, int y, const Weighted& seen);
+  /// Adds all contributions of pixel (x, y), whose samples have this pattern: width() floats each; floats beyond those
+  /// asked for may have any value.
+  void add(int x, int y, int pattern, const SeenFloats& seen);
   const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 
  private:
@@ -87,7 +88,7 @@ class PixelSums {
   const WeightTable& weights_;
   const PixelRect block_;
   const int width_;
-  AlignedVector<float> sums_;
+  AlignedVector<float> sums_, weightsOfSeen_;
 };
 
 /// Calls body(cell, pixel) for every pixel of `rect` whose samples reach pixel (x, y).

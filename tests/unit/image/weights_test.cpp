@@ -20,15 +20,16 @@ SampleOffsets offsets(int count) {
 TEST(Weights, AllPlacesAtOnceAreThoseAskedForOneByOneBitForBit) {
   const SampleOffsets samples = offsets(80);
   const WeightTable table(PixelFilter("mitchell", 3.5f, 2), samples);
-  AlignedVector<float> sums(static_cast<size_t>(table.places()));
+  const PixelRect block{-3, -3, 4, 4};
+  const float one[PixelSums::kWide] = {1};
   for (const uint16_t word : {uint16_t{0}, uint16_t{1}}) {
     const uint64_t mask = word == 0 ? 0xf0f3'0000'1234'5679U : 0x0000'0000'0000'a5c3U;
-    table.sums(2, mask, word, sums.data());
-    for (int dy = -table.reachY; dy <= table.reachY; ++dy)
-      for (int dx = -table.reachX; dx <= table.reachX; ++dx) {
-        const WeightTable::Cell cell = table.cell(2, dx, dy);
-        EXPECT_EQ(sums[static_cast<size_t>(cell.place)], table.sum(cell, mask, word));
-      }
+    const Contribution seen{mask, word, 0};
+    PixelSums sums(table, block, 1);
+    sums.add(0, 0, 2, {{&seen, 1}, one, 0});
+    for (int y = -table.reachY; y <= table.reachY; ++y)
+      for (int x = -table.reachX; x <= table.reachX; ++x)
+        EXPECT_EQ(sums.of(x, y)[0], table.sum(table.cell(2, -x, -y), mask, word));
   }
 }
 
@@ -38,8 +39,9 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
   const PixelRect block{4, 3, 11, 8}, around{3, 2, 12, 9};
   PixelSums scattered(table, block, 3);
   // Each pixel sees two things: one value, and its double under the same weights.
-  const auto wide = static_cast<size_t>(scattered.width()), places = static_cast<size_t>(table.places());
-  std::vector<float> values(2 * wide), weights(2 * places);
+  const auto wide = static_cast<size_t>(scattered.width());
+  std::vector<float> values(2 * wide);
+  const Contribution twice[2] = {{0xffff, 0, 0}, {0xffff, 0, 0}};
   const auto valueAt = [](int x, int y, int k) {
     return unitFloat(hashCombine(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(k)));
   };
@@ -49,9 +51,7 @@ TEST(Weights, WhatIsScatteredIsWhatAPixelWouldGather) {
         values[k] = valueAt(x, y, static_cast<int>(k));
         values[wide + k] = 2 * values[k];
       }
-      for (size_t c = 0; c < 2; ++c)
-        std::copy_n(table.sums(samples.patternOf(x, y)), places, weights.data() + c * places);
-      scattered.add(x, y, {2, weights.data(), values.data(), wide});
+      scattered.add(x, y, samples.patternOf(x, y), {twice, values.data(), wide});
     }
   for (int y = block.y0; y < block.y1; ++y)
     for (int x = block.x0; x < block.x1; ++x) {
