@@ -45,6 +45,11 @@ void sortAlongRay(HitList& list);
 /// sense are one surface. The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
+/// Tells whether two hits, no farther apart than `rounding`, are the two faces of one sheet: polygons in the same place
+/// that face apart. A scene gives the sides of a surface different shaders by two such polygons with Sides 1. Polygons
+/// of different instances are never taken for one.
+bool facesOfOneSheet(const PolygonHit& a, const PolygonHit& b, float rounding);
+
 /// Returns the rounding error of positions: a few units in the last place of their distance from the eye.
 inline float roundingAt(const vec3& P) { return 4e-7f * glm::length(P); }
 
@@ -56,7 +61,8 @@ struct RayStart {
 };
 
 /// Tells whether the other side of a wall lies within the offset, besides the origin (-1: none). It has to be of the
-/// same group and turned away, because blades and leaves side by side are no walls.
+/// same group and turned away, because blades and leaves side by side are no walls. A sheet of two faces is none
+/// either.
 bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
 
 /// Returns the hit that becomes the effective origin: the one closest to t = 0 within the offset, or -1 if the origin
@@ -64,7 +70,8 @@ bool isCrowded(const HitList& sorted, int origin, const RayStart& start);
 /// the ray's own group is then preferred among equally close hits, and after that one that it leaves.
 int effectiveOrigin(const HitList& sorted, const RayStart& start);
 
-/// Returns the first hit on another surface that is not before `origin` (-1: after t = 0), or -1.
+/// Returns the first hit on another surface that is not before `origin` (-1: after t = 0), or -1. The other face of the
+/// sheet at the origin is no other surface.
 int nextHit(const HitList& sorted, int origin, const RayStart& start);
 
 }  // namespace tomales

@@ -64,6 +64,22 @@ TEST(HitList, AtACreaseTheRayMayLeaveOneWallIntoTheOther) {
     EXPECT_EQ(answer({at(noise, false, 1), at(0, true, 2), at(3, true, 3)}, start), (Answer{0, noise})) << noise;
 }
 
+TEST(HitList, TheOtherFaceOfASheetIsNoOtherSurface) {
+  const auto polygon = [](float t, bool leaving, const vec3& normal) {
+    PolygonHit hit = at(t, leaving);
+    hit.normal = normal;
+    return hit;
+  };
+  const RayStart start{kOffset, 1e-6f, 0};
+  const PolygonHit front = polygon(0, true, {0, 0, 2}), back = polygon(5e-7f, false, {0, 0, -3}),
+                   far = polygon(2e-6f, false, {0, 0, -3}), wall = polygon(5e-7f, false, {0, 1, 0});
+  EXPECT_EQ(answer({front, back, at(3, false)}, start), (Answer{0, 3}));
+  EXPECT_EQ(answer({front, wall, at(3, false)}, start), (Answer{0, 5e-7f})) << "a wall at a crease";
+  EXPECT_EQ(answer({front, far, at(3, false)}, start), (Answer{0, 2e-6f})) << "the other side of a thin wall";
+  EXPECT_FALSE(isCrowded({front, back}, 0, start));
+  EXPECT_TRUE(isCrowded({front, far}, 0, start));
+}
+
 TEST(HitList, AtACreaseTheRayLeavesItsOwnGroup) {
   // The walls of a room whose normals point outwards: the ray goes against them all.
   const HitList list{{0, 4, 1, 0, 0, true}, {-5e-7f, 5, 2, 0, 0, false}};
