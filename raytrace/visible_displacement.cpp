@@ -119,7 +119,7 @@ class Chooser {
         quadsLeft_(std::max(kAlwaysQuads, 1.0 * camera.xResolution() * camera.yResolution())) {
     for (size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& o = scene_.objects[i];
-      if (!isUndecided(*o.attributes) || !o.attributes->visibility.camera) continue;
+      if (!isUndecided(*o.attributes)) continue;
       for (uint32_t p = 0; p < o.shape().patchCount(); ++p)
         patches_[static_cast<size_t>(o.group)].push_back({static_cast<int>(i), p});
     }
