@@ -13,6 +13,11 @@ constexpr float kReach = 4;
 constexpr float kReachOpen = 1.5f;
 /// Greatest share of a cell by which an open border reaches out, so that small shapes do not grow.
 constexpr float kShareOfCell = 1 / 128.0f;
+// A neighbour displaces other points of the border than ours, so its chords may lie farther from ours than those of a
+// smooth surface: by more sagittas where the border is smooth, and by these many times its roughness.
+constexpr float kReachDisplaced = 8, kReachRough = 24;
+/// Lines of a piece, from the border inward, that tell how rough it is: the border may look smooth by chance.
+constexpr int kRoughLines = 3;
 // Displaced borders that turn away from the eye reach out by this share of what others do, or of a pixel if that is
 // more. Past the horizon more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
@@ -77,6 +82,34 @@ float longestEdge_px(const float* x, const float* y, const Border& b) {
     longest = std::max(longest, glm::length(vec2(x[w] - x[v], y[w] - y[v])));
   }
   return longest;
+}
+
+/// Returns how irregularly the border bends, as a sagitta: by the change from one second difference to the next, which
+/// is next to nothing on a smooth curve.
+float roughness_px(const float* x, const float* y, const Border& b) {
+  float most = 0;
+  vec2 before{0};
+  for (int k = 1; k < b.count; ++k) {
+    const int v = b.first + k * b.step;
+    const vec2 bend{x[v - b.step] - 2 * x[v] + x[v + b.step], y[v - b.step] - 2 * y[v] + y[v + b.step]};
+    const vec2 change = bend - before;
+    if (k > 1) most = std::max(most, dot(change, change));
+    before = bend;
+  }
+  return std::sqrt(most) / 8;
+}
+
+/// Returns how far a displaced border may lie from that of its neighbour: within a micropolygon.
+float apart_px(const Grid& g, const float* x, const float* y, const Border& b) {
+  const float edge = longestEdge_px(x, y, b);
+  if (b.count < 3) return edge;  // Too few points show no roughness.
+  float rough = 0;
+  Border line = b;
+  const int lines = std::min(kRoughLines, (std::abs(b.inward) == 1 ? g.nu : g.nv) + 1);
+  for (int i = 0; i < lines && kReachRough * rough < edge; ++i, line.first += b.inward)
+    rough = std::max(rough, roughness_px(x, y, line));
+  if (kReachRough * rough >= edge) return edge;
+  return std::min(edge, std::max(kReachRough * rough, kReachDisplaced * deviationAlong(g, x, y, b)));
 }
 
 /// Sign of the raster area of the cell at vertex k of a border, u before v.
@@ -208,7 +241,7 @@ void pushBorders(const RasterGrid& r, float mostOfDisplaced_px, float facing, fl
     for (const Border& b : bordersOf(g, static_cast<int>(p) * g.verticesOfPiece())) {
       if (!(pushed & b.edge)) continue;
       const bool open = g.pieces[p].openEdges & b.edge;
-      const float displaced_px = open ? 0.0f : std::min(mostOfDisplaced_px, longestEdge_px(x, y, b));
+      const float displaced_px = open ? 0.0f : std::min(mostOfDisplaced_px, apart_px(g, x, y, b));
       pushBorder(g, b, x, y, {open, (cut & b.edge) != 0, std::max(kLeastReach_px, displaced_px)}, facing, push);
     }
   }
