@@ -74,6 +74,14 @@ Param* find(ParamList& list, const std::string& name) {
   return found == list.end() ? nullptr : &*found;
 }
 
+std::string alphaMode(const aiMaterial& material) {
+  aiString mode;
+  return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS ? of(mode) : "";
+}
+
+/// Its reader always says how alpha counts.
+bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
+
 /// Adds pictures to a look.
 class Painter {
  public:
@@ -89,11 +97,12 @@ class Painter {
       return;
     const std::string file = textures_.file(of(path), wrap[0], wrap[1]);
     if (file.empty()) return;
-    if (count_++ == 0) look_.textureSet = set;
-    if (set != look_.textureSet && !look_.secondSet) look_.secondSet = set;
-    if (set == look_.secondSet)
+    const TextureCoordinates at = coordinatesOf(material_, mapped.type, set, isGltf(material_));
+    if (count_++ == 0) look_.first = at;
+    if (at != look_.first && !look_.second) look_.second = at;
+    if (at == look_.second)
       ofSecondSet_ += (ofSecondSet_.empty() ? "" : " ") + std::string(mapped.map);
-    else if (set != look_.textureSet)
+    else if (at != look_.first)
       leaveOut("a third set of texture coordinates for its pictures");
     look_.parameters.push_back(param(mapped.map, file));
     if (mapped.channel) look_.parameters.push_back(param(mapped.channel, mapped.number));
@@ -125,14 +134,6 @@ class Painter {
   int count_ = 0;
 };
 
-std::string alphaMode(const aiMaterial& material) {
-  aiString mode;
-  return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS ? of(mode) : "";
-}
-
-/// Its reader always says how alpha counts.
-bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
-
 /// Applies glTF's mode of alpha (section 3.9.4 of its specification): it counts not at all, as it is, or as present or
 /// absent.
 void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
@@ -153,8 +154,8 @@ void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
 /// Makes a material that is not lit glow in its colour. Its picture is the only one.
 void makeUnlit(Look& look) {
   if (const Param* p = find(look.parameters, "secondset"); p && p->strings[0].find("texturename") != std::string::npos)
-    look.textureSet = *look.secondSet;
-  look.secondSet.reset();
+    look.first = *look.second;
+  look.second.reset();
   ParamList out{param("emission", ValueType::Color, look.color), param("specular", 0.0f)};
   for (Param& p : look.parameters)
     if (p.name == "texturename" || p.name == "linearize" || p.name.starts_with("opacity")) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reyes/bindings/assimp/rib_calls.h"
+#include "reyes/bindings/assimp/texture_coordinates.h"
 #include "reyes/bindings/assimp/textures.h"
 
 namespace tomales::model {
@@ -17,9 +18,9 @@ struct Look {
   bool usesVertexAlpha = true;
   std::string shader = "disney";
   ParamList parameters;
-  unsigned textureSet = 0;            ///< Number of the mesh's texture coordinates that are st.
-  std::optional<unsigned> secondSet;  ///< Number of those that are s1 and t1.
-  std::string leftOut;                ///< Names of properties that the shader does not have; empty: none.
+  TextureCoordinates first;                  ///< They become st.
+  std::optional<TextureCoordinates> second;  ///< They become s1 and t1.
+  std::string leftOut;                       ///< Names of properties that the shader does not have; empty: none.
 };
 
 /// `pictureReplaces`: a picture takes the place of the colour, which it multiplies elsewhere.

@@ -82,19 +82,24 @@ class Variables {
   ParamList list;
 
  private:
-  /// The picture's origin is at its top in RIB, and at its bottom here.
   void addTextureCoordinates(const aiMesh& mesh, const Look& look) {
-    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
-      if (!mesh.HasTextureCoords(set)) continue;
-      const aiVector3D* uv = mesh.mTextureCoords[set];
-      if (set == look.secondSet) {
-        add("s1", ValueType::Float, 1, [&](int v) { return vec3(uv[v].x); });
-        add("t1", ValueType::Float, 1, [&](int v) { return vec3(1 - uv[v].y); });
-      } else {
-        add(set == look.textureSet ? "st" : fmt::format("st{}", set), ValueType::Float, 2,
-            [&](int v) { return vec3(uv[v].x, 1 - uv[v].y, 0); });
-      }
+    const auto isOfPictures = [&](unsigned set) {
+      return set == look.first.set || (look.second && set == look.second->set);
+    };
+    addPair(mesh, "st", look.first);
+    if (look.second && mesh.HasTextureCoords(look.second->set)) {
+      add("s1", ValueType::Float, 1, [&](int v) { return vec3(st(mesh, *look.second, v).x); });
+      add("t1", ValueType::Float, 1, [&](int v) { return vec3(st(mesh, *look.second, v).y); });
     }
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set)
+      if (!isOfPictures(set)) addPair(mesh, fmt::format("st{}", set), {set});
+  }
+  void addPair(const aiMesh& mesh, const std::string& name, const TextureCoordinates& of) {
+    if (mesh.HasTextureCoords(of.set)) add(name, ValueType::Float, 2, [&](int v) { return st(mesh, of, v); });
+  }
+  static vec3 st(const aiMesh& mesh, const TextureCoordinates& of, int vertex) {
+    const aiVector3D& uv = mesh.mTextureCoords[of.set][vertex];
+    return of.stFromUv * vec3(uv.x, uv.y, 1);
   }
   void addColors(const aiMesh& mesh, const Look& look) {
     if (!mesh.HasVertexColors(0)) return;
