@@ -117,6 +117,7 @@ struct TextureRecipe {
   std::string sWrap = "black", tWrap = "black";  ///< black, clamp, periodic, mirror
   std::string filter = "box";                    ///< Filter that makes the MIP levels.
   float fov_degrees = 90;                        ///< Field of view of the faces of a Cube.
+  bool greyAsColor = false;                      ///< A Picture of grey and alpha gets red, green and blue instead.
 };
 class PictureLibrary {
  public:

@@ -156,6 +156,12 @@ bool isTiledMip(const std::string& file, std::string& error) {
   return in->spec().tile_width > 0 && in->seek_subimage(0, 1);
 }
 
+OIIO::ImageBuf withoutGrey(const OIIO::ImageBuf& picture) {
+  const bool isGrey = picture.nchannels() == 2 && picture.spec().alpha_channel == 1;
+  if (!isGrey) return picture;
+  return OIIO::ImageBufAlgo::channels(picture, 4, {0, 0, 0, 1}, {}, {"R", "G", "B", "A"});
+}
+
 }  // namespace
 
 bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
@@ -168,7 +174,7 @@ Making convert(const TextureRecipe& recipe, std::string& error) {
   if (recipe.shape == TextureRecipe::Shape::Cube)
     picture = unfoldCube(recipe, error);
   else if (OIIO::ImageBuf whole; readWhole(recipe.pictures.front(), whole, error))
-    picture = std::move(whole);
+    picture = recipe.greyAsColor ? withoutGrey(whole) : std::move(whole);
   if (!picture) return Making::Unreadable;
   const fs::path beside = throughLinks(recipe.file).parent_path();
   return write(*picture, recipe, recipe.file, beside, false, error) ? Making::Done : Making::Unwritable;

@@ -162,6 +162,10 @@ t.expect(all(max(abs(a - b) for a, b in zip(turned[y][x], painted[y][x])) <= 3 f
 grey = facing("grey.glb", paint(png(8, lambda x, y: (128, 128, 128))))[60][80][0]
 half = facing("half.glb", lambda scene: {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.2159, 0.2159, 0.2159, 1]}})[60][80][0]
 t.expect(abs(grey - half) <= 1, f"base colours are made linear: {grey}, {half}")
+veiled = png(8, lambda x, y: (128, 255 if y >= 4 else 51))  # This is grey with alpha, as the last of two channels.
+shades = [[seen[y][80] for y in (30, 90)] for seen in (facing(f"veil{m}.glb", paint(veiled, alphaMode=m)) for m in ("OPAQUE", "MASK", "BLEND"))]
+t.expect(all(max(abs(c - grey) for c in p) <= 3 for p in (*shades[0], shades[1][1], shades[2][1])), f"grey with alpha is grey: {shades}, {grey}")
+t.expect(max(shades[1][0]) == 0 and 0 < max(shades[2][0]) < grey, f"where its alpha says so: {shades}")
 ways = facing("metal.glb", lambda scene: {"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": scene.image(png(8, lambda x, y: (0, 255, 255 * (x >= 4))))}}})
 t.expect(ways[60][50][0] > 1.5 * ways[60][110][0], "the blue channel makes the right half a metal, which scatters nothing")
 cut = facing("cut.glb", paint(png(8, lambda x, y: (255, 255, 255, 255 * (y >= 4))), alphaMode="BLEND"))

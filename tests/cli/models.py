@@ -36,10 +36,11 @@ def triangles(quads):
 
 
 def png(size, texel):
-    """Returns a square picture. `texel` gives the bytes of column x in row y from the top: three, or four with alpha."""
+    """Returns a square picture. `texel` gives the bytes of column x in row y from the top: one of grey or three of colour, and one more
+    with alpha."""
     rows = [[bytes(texel(x, y)) for x in range(size)] for y in range(size)]
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    head = struct.pack(">IIBBBBB", size, size, 8, 2 if len(rows[0][0]) == 3 else 6, 0, 0, 0)
+    head = struct.pack(">IIBBBBB", size, size, 8, {1: 0, 2: 4, 3: 2, 4: 6}[len(rows[0][0])], 0, 0, 0)
     body = zlib.compress(b"".join(b"\0" + b"".join(row) for row in rows))
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
 

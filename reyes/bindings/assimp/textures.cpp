@@ -102,6 +102,7 @@ std::string Textures::convert(const std::string& name, const char* sWrap, const 
   recipe.file = place.path;
   recipe.sWrap = sWrap;
   recipe.tWrap = tWrap;
+  recipe.greyAsColor = true;  // materials count on alpha as the fourth channel
   std::string error;
   if (makeTexture(recipe, error) != Making::Done) return report("cannot be read: " + error);
   return place.name;
