@@ -1,9 +1,14 @@
 """Tests what becomes of a model's colours, pictures and texture coordinates by the numbers of the RIB."""
 import math
+import pathlib
 import re
+import sys
 
 from models import Gltf, png
 from program import Suite
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
+from pictures import pixels  # noqa: E402
 
 t = Suite()
 SQUARE = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
@@ -22,9 +27,10 @@ def imported(name, model, code=0, *says):
 
 
 def numbers(rib, name):
-    """Returns the numbers of a variable or parameter."""
-    found = re.search(rf'"[^"]* {name}" \[([^\]]*)\]', rib)
-    return [float(x) for x in found[1].split()] if found else []
+    """Returns the numbers of a variable, or else of a parameter of the first material."""
+    first, *_, last = re.split("ArchiveBegin|ArchiveEnd", rib)[1:]
+    found = [re.search(rf'"[^"]* {name}" \[([^\]]*)\]', text) for text in (last, first)]
+    return next(([float(x) for x in f[1].split()] for f in found if f), [])
 
 
 def near(what, seen, expected, tolerance=1e-5):
@@ -64,5 +70,35 @@ other = transformed(DOWN, scale=(2, 2), offset=(0.5, 0))
 near("the first picture's coordinates are st", numbers(rib, "st"), DOWN)
 near("another's are s1 and t1", numbers(rib, "s1") + numbers(rib, "t1"), [u for u, _ in other] + [v for _, v in other])
 t.expect('secondset" [ "emissionmap"]' in rib, "as secondset says")
+
+# The picture of a surface that nothing lights has the colours themselves.
+rainbow = [(0.5, 0.25, 0.125), (0.25, 0.5, 0.75), (1, 0.5, 0), (0.125, 1, 1)]
+unlit = using(scene_of(lambda s: {"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 1, 1]}, "extensions": {"KHR_materials_unlit": {}}}, COLOR_0=[(*c, 1) for c in rainbow]), "KHR_materials_unlit")
+near("colours of unlit vertices glow", numbers(imported("unlit.glb", unlit.glb()), "emission"), [(r, g / 2, b) for r, g, b in rainbow])
+t.expect_run("and are seen", ["out.rib", "-o", "unlit.exr", "--format", "64x64"], 0)
+seen = [p[:3] for p in pixels(t.folder / "unlit.exr").values() if p[2] > 0.2]
+t.expect(len(seen) > 100 and min(p[1] for p in seen) < 0.25 and min(p[0] for p in seen) < 0.25 and max(p[0] for p in seen) > 0.5, "as they are between the vertices")
+
+
+def glossy(name, picture=None, blend="OPAQUE", **extension):
+    """Returns the RIB of a material of specular colour and glossiness."""
+    def look(scene):
+        extension.update({"diffuseTexture": {"index": scene.image(picture)}} if picture else {})
+        return {"alphaMode": blend, "extensions": {"KHR_materials_pbrSpecularGlossiness": extension}}
+    return imported(name, using(scene_of(look), "KHR_materials_pbrSpecularGlossiness").glb())
+
+
+def color(rib):
+    return [float(x) for x in re.search(r'ArchiveBegin "material 1 "\nColor \[([^\]]*)\]', rib)[1].split()]
+
+
+rib = glossy("chalk.glb", diffuseFactor=[0.5, 0.25, 0.125, 1], specularFactor=[0, 0, 0], glossinessFactor=0)
+near("a diffuse colour without highlights", color(rib) + numbers(rib, "specular") + numbers(rib, "roughness") + numbers(rib, "metallic"), [0.5, 0.25, 0.125, 0, 1])
+rib = glossy("paint.glb", diffuseFactor=[0.5, 0.25, 0.125, 1], specularFactor=[0.04] * 3, glossinessFactor=0.75)
+near("a varnished one", color(rib) + numbers(rib, "specular") + numbers(rib, "roughness") + numbers(rib, "metallic"), [0.48, 0.24, 0.12, 0.5, 0.25])
+rib = glossy("gold.glb", diffuseFactor=[0, 0, 0, 1], specularFactor=[1, 0.75, 0.25], glossinessFactor=0.5)
+near("a metal", color(rib) + numbers(rib, "metallic"), [1, 0.75, 0.25, 1])
+rib = glossy("glass.glb", white, "BLEND", diffuseFactor=[1, 1, 1, 0.5], specularFactor=[0, 0, 0])
+t.expect("Opacity [ 0.5 0.5 0.5 ]" in rib and "texturename" in rib and "opacitymap" in rib, "the diffuse colour's alpha counts")
 
 t.finish()

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "reyes/bindings/assimp/nodes.h"
+#include "reyes/bindings/assimp/specular_glossiness.h"
 
 namespace tomales::model {
 namespace {
@@ -144,14 +145,16 @@ void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
     look.usesVertexAlpha = false;
     return;
   }
-  painter.add({aiTextureType_BASE_COLOR, "opacitymap", "opacity", "opacitychannel", 3});
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
+    painter.add({type, "opacitymap", "opacity", "opacitychannel", 3});
   if (isMask) {
     look.shader = "disneycutout";
     look.parameters.push_back(param("opacitycutoff", cutoff));
   }
 }
 
-/// Makes a material that is not lit glow in its colour. Its picture is the only one.
+/// Makes a material that is not lit glow in its colour, by which colours of vertices are multiplied then. Its picture
+/// is the only one.
 void makeUnlit(Look& look) {
   if (const Param* p = find(look.parameters, "secondset"); p && p->strings[0].find("texturename") != std::string::npos)
     look.first = *look.second;
@@ -163,6 +166,7 @@ void makeUnlit(Look& look) {
       out.push_back(p);
     }
   look.parameters = std::move(out);
+  look.unlit = look.color;
   look.color = vec3(0.0f);
 }
 
@@ -196,11 +200,18 @@ Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces
   else if (const auto diffuse = color(material, AI_MATKEY_COLOR_DIFFUSE))
     out.color = *diffuse;
   out.opacity = glm::clamp(number(material, AI_MATKEY_OPACITY).value_or(1), 0.0f, 1.0f);
-  out.parameters = {param("roughness", roughnessOf(material))};
   const auto add = [&](const char* parameter, std::optional<float> value) {
     if (value && *value > 0) out.parameters.push_back(param(parameter, std::min(*value, 1.0f)));
   };
-  add("metallic", number(material, AI_MATKEY_METALLIC_FACTOR));
+  if (const auto glossy = metallicOfSpecularGlossiness(material)) {
+    out.color = glossy->color;
+    out.opacity = glossy->opacity;
+    out.parameters = {param("roughness", glossy->roughness), param("specular", glossy->specular)};
+    add("metallic", glossy->metallic);
+  } else {
+    out.parameters = {param("roughness", roughnessOf(material))};
+    add("metallic", number(material, AI_MATKEY_METALLIC_FACTOR));
+  }
   add("clearcoat", number(material, AI_MATKEY_CLEARCOAT_FACTOR));
   if (const auto emitted = color(material, AI_MATKEY_COLOR_EMISSIVE); emitted && maxComponent(*emitted) > 0)
     out.parameters.push_back(

@@ -14,6 +14,7 @@ namespace tomales::model {
 struct Look {
   std::string name;
   vec3 color{0.8f};
+  std::optional<vec3> unlit;  ///< What it glows in, whatever lights it; `color` is black then.
   float opacity = 1;
   bool usesVertexAlpha = true;
   std::string shader = "disney";

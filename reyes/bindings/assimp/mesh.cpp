@@ -104,7 +104,9 @@ class Variables {
   void addColors(const aiMesh& mesh, const Look& look) {
     if (!mesh.HasVertexColors(0)) return;
     const aiColor4D* colors = mesh.mColors[0];
-    add("Cs", ValueType::Color, 3, [&](int v) { return look.color * vec3(colors[v].r, colors[v].g, colors[v].b); });
+    const vec3 multiplied = look.unlit.value_or(look.color);
+    add(look.unlit ? "emission" : "Cs", ValueType::Color, 3,
+        [&](int v) { return multiplied * vec3(colors[v].r, colors[v].g, colors[v].b); });
     if (look.usesVertexAlpha &&
         std::any_of(colors, colors + mesh.mNumVertices, [](const aiColor4D& c) { return c.a < 1; }))
       add("Os", ValueType::Color, 3, [&](int v) { return vec3(look.opacity * colors[v].a); });
