@@ -101,4 +101,46 @@ near("a metal", color(rib) + numbers(rib, "metallic"), [1, 0.75, 0.25, 1])
 rib = glossy("glass.glb", white, "BLEND", diffuseFactor=[1, 1, 1, 0.5], specularFactor=[0, 0, 0])
 t.expect("Opacity [ 0.5 0.5 0.5 ]" in rib and "texturename" in rib and "opacitymap" in rib, "the diffuse colour's alpha counts")
 
+# Vertices may be told by integers. Each kind of file keeps its numbers in another place.
+def with_integers(**rows):
+    """Returns the square with attributes of (rows, kind, stride, normalized)."""
+    scene = scene_of(lambda s: {"pbrMetallicRoughness": {"metallicFactor": 0}})
+    attributes = scene.document["meshes"][0]["primitives"][0]["attributes"]
+    for name, (values, kind, stride, normalized) in rows.items():
+        attributes[name] = scene.integers(values, kind, stride, normalized=normalized)
+    return scene
+
+
+def in_forms(scene):
+    """Returns the file in each of its forms, by name."""
+    t.write("apart.bin", scene.data)
+    return {"one.glb": scene.glb(), "one.gltf": scene.gltf(), "apart.gltf": scene.apart("apart.bin")}
+
+
+THIRDS = [(0.2, 0.8), (1, 0.4), (0, 0.6), (0.6, 1)]
+for kind, most, stride in (("B", 255, 4), ("B", 255, 0), ("H", 65535, 0), ("H", 65535, 12)):
+    scene = with_integers(TEXCOORD_0=([tuple(round(c * most) for c in uv) for uv in THIRDS], kind, stride, True))
+    for name, model in in_forms(scene).items():
+        near(f"{name}: integers up to {most}, {stride} apart", numbers(imported(name, model), "st"), THIRDS)
+PLACES = [(-127, -100, 0), (127, -100, 0), (127, 100, 50), (-128, 100, 50)]
+few = using(with_integers(POSITION=(PLACES, "b", 4, False), NORMAL=([(0, -127, 127)] * 4, "b", 4, True), TEXCOORD_0=([(0, 3), (5, 3), (5, 0), (0, 0)], "H", 0, False)), "KHR_mesh_quantization")
+few.document["extensionsRequired"] = ["KHR_mesh_quantization"]
+rib = imported("few.glb", few.glb())
+near("quantized places", numbers(rib, "P"), PLACES)
+near("and normals", numbers(rib, "N"), [(0, -1, 1)] * 4)
+near("and coordinates", numbers(rib, "st"), [(0, 3), (5, 3), (5, 0), (0, 0)])
+near("normalized places", numbers(imported("ones.glb", with_integers(POSITION=(PLACES, "b", 4, True)).glb()), "P"), [tuple(max(c / 127, -1) for c in p) for p in PLACES])
+bare = scene_of(lambda s: {"alphaMode": "BLEND"}, COLOR_0=rainbow)
+rib = imported("bare.glb", bare.glb())
+near("colours without alpha", numbers(rib, "Cs"), rainbow)
+t.expect('Os"' not in rib, "are opaque")
+
+bright = scene_of(lambda s: {"emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 3}}})
+near("emission has its strength", numbers(imported("bright.glb", using(bright, "KHR_materials_emissive_strength").glb()), "emission"), [3, 1.5, 0])
+second = scene_of(lambda s: {"pbrMetallicRoughness": {"baseColorTexture": textured(s, texCoord=1, scale=[2, 2])}}, TEXCOORD_1=[(u / 2, v) for u, v in UV])
+near("a transformation names its coordinates", numbers(imported("named.glb", using(second, "KHR_texture_transform").glb()), "st"), transformed([(u / 2, v) for u, v in DOWN], scale=(2, 2)))
+odd = using(scene_of(lambda s: {}), "KHR_materials_iridescence", "KHR_materials_unlit", "EXT_odd")
+odd.document["extensionsRequired"] = ["EXT_odd"]
+imported("odd.glb", odd.glb(), 0, "left out: KHR_materials_iridescence, EXT_odd; the file asks not to be read without EXT_odd [import-extension]")
+
 t.finish()

@@ -86,11 +86,11 @@ class Gltf:
         self.document.setdefault(kind, []).append(entry)
         return len(self.document[kind]) - 1
 
-    def view(self, data):
+    def view(self, data, stride=0):
         self.data += b"\0" * (-len(self.data) % 4)
         start = len(self.data)
         self.data += data
-        return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data)})
+        return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data), **({"byteStride": stride} if stride else {})})
 
     def floats(self, rows):
         width = len(rows[0])
@@ -99,6 +99,12 @@ class Gltf:
                     "type": {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}[width]}
         finite = [[x for x in column if x == x and abs(x) < 1e38] or [0] for column in zip(*rows)]
         return self.add("accessors", {**accessor, "min": [min(c) for c in finite], "max": [max(c) for c in finite]})
+
+    def integers(self, rows, kind, stride=0, **more):
+        """Adds integers. `kind` is that of struct; elements begin `stride` bytes after one another, if it is given."""
+        packed = [struct.pack(f"<{len(row)}{kind}", *row) for row in rows]
+        accessor = {"componentType": {"b": 5120, "B": 5121, "h": 5122, "H": 5123}[kind], "count": len(rows), "type": f"VEC{len(rows[0])}", **more}
+        return self.add("accessors", {**accessor, "bufferView": self.view(b"".join(p.ljust(stride, b"\0") for p in packed), stride)})
 
     def indices(self, values):
         return self.add("accessors", {"bufferView": self.view(struct.pack(f"<{len(values)}I", *values)), "componentType": 5125, "count": len(values), "type": "SCALAR"})
@@ -136,6 +142,10 @@ class Gltf:
 
     def gltf(self):
         return self._document("data:application/octet-stream;base64," + base64.b64encode(self.data).decode())
+
+    def apart(self, uri):
+        """Returns the document alone. The numbers are expected in another file."""
+        return self._document(uri)
 
     def glb(self):
         text, data = self._document().encode(), self.data

@@ -1,0 +1,108 @@
+#include "reyes/bindings/assimp/gltf_buffers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "reyes/base/input_file.h"
+
+namespace tomales::model {
+namespace {
+
+using nlohmann::json;
+
+std::string fromBase64(std::string_view text) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const size_t digit = digits.find(c);
+    if (digit == digits.npos) continue;
+    bits = bits << 6 | static_cast<uint32_t>(digit);
+    if ((count += 6) < 8) continue;
+    count -= 8;
+    out += static_cast<char>(bits >> count & 0xff);
+  }
+  return out;
+}
+
+template <class T>
+float numberAt(const char* bytes, bool isNormalized) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return isNormalized ? std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()), -1.0f)
+                      : static_cast<float>(value);
+}
+
+/// How glTF stores a number.
+struct Component {
+  int type;
+  size_t bytes;
+  float (*read)(const char* bytes, bool isNormalized);
+};
+constexpr Component kComponents[] = {
+    {5120, 1, numberAt<int8_t>},
+    {5121, 1, numberAt<uint8_t>},
+    {5122, 2, numberAt<int16_t>},
+    {5123, 2, numberAt<uint16_t>},
+    {5126, 4, [](const char* bytes, bool) { return numberAt<float>(bytes, false); }},
+};
+
+}  // namespace
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in;
+  if (inputProblem(path).empty()) in.open(path, std::ios::binary);
+  return in.is_open() ? std::string(std::istreambuf_iterator<char>(in), {}) : std::string();
+}
+
+int componentsOf(const json& accessor) {
+  const std::string type = accessor.value("type", "");
+  return type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 0;
+}
+
+const std::string& GltfBuffers::buffer(size_t index) {
+  const auto [place, isNew] = read_.try_emplace(index);
+  if (!isNew) return place->second;
+  const std::string uri = document_.at("buffers").at(index).value("uri", "");
+  if (uri.empty())
+    place->second = binary_;
+  else if (uri.starts_with("data:"))
+    place->second = fromBase64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
+  else
+    place->second = contentOf((std::filesystem::path(folder_) / uri).string());
+  return place->second;
+}
+
+std::optional<std::vector<float>> GltfBuffers::floats(const json& accessor) {
+  const int type = accessor.value("componentType", 0);
+  const auto* component =
+      std::find_if(std::begin(kComponents), std::end(kComponents), [&](const Component& c) { return c.type == type; });
+  const auto width = static_cast<size_t>(componentsOf(accessor));
+  if (component == std::end(kComponents) || width == 0 || accessor.contains("sparse") ||
+      !accessor.contains("bufferView"))
+    return std::nullopt;
+  const json& view = document_.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
+  const std::string& bytes = buffer(view.at("buffer").get<size_t>());
+  const size_t element = width * component->bytes, count = accessor.at("count").get<size_t>(),
+               stride = view.value("byteStride", element),
+               first = view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
+  // Each of these is small before they are multiplied.
+  if (count == 0 || count > bytes.size() || stride > 1024 || first > bytes.size() ||
+      (count - 1) * stride + element > bytes.size() - first)
+    return std::nullopt;
+  const bool isNormalized = accessor.value("normalized", false);
+  std::vector<float> out;
+  out.reserve(count * width);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t k = 0; k < width; ++k)
+      out.push_back(component->read(bytes.data() + first + i * stride + k * component->bytes, isNormalized));
+  return out;
+}
+
+}  // namespace tomales::model
