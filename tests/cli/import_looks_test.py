@@ -4,7 +4,7 @@ import pathlib
 import re
 import sys
 
-from models import Gltf, png
+from models import Gltf, obj, png
 from program import Suite
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
@@ -88,8 +88,8 @@ def glossy(name, picture=None, blend="OPAQUE", **extension):
     return imported(name, using(scene_of(look), "KHR_materials_pbrSpecularGlossiness").glb())
 
 
-def color(rib):
-    return [float(x) for x in re.search(r'ArchiveBegin "material 1 "\nColor \[([^\]]*)\]', rib)[1].split()]
+def color(rib, material="1 "):
+    return [float(x) for x in re.search(rf'ArchiveBegin "material {material}"\nColor \[([^\]]*)\]', rib)[1].split()]
 
 
 rib = glossy("chalk.glb", diffuseFactor=[0.5, 0.25, 0.125, 1], specularFactor=[0, 0, 0], glossinessFactor=0)
@@ -142,5 +142,41 @@ near("a transformation names its coordinates", numbers(imported("named.glb", usi
 odd = using(scene_of(lambda s: {}), "KHR_materials_iridescence", "KHR_materials_unlit", "EXT_odd")
 odd.document["extensionsRequired"] = ["EXT_odd"]
 imported("odd.glb", odd.glb(), 0, "left out: KHR_materials_iridescence, EXT_odd; the file asks not to be read without EXT_odd [import-extension]")
+
+# Materials of .obj place their pictures. What they do not give is no colour of theirs.
+t.write("white.png", white)
+
+
+def of_mtl(lines, colors=()):
+    t.write("paint.mtl", "newmtl other\nnewmtl a paint \n" + lines)
+    return imported("painted.obj", obj(SQUARE, [(0, 1, 2, 3)], UV, [(0, 0, 1)] * 4, colors, before="mtllib paint.mtl", material="a paint"))
+
+
+def painted(rib):
+    return color(rib, r"\d a paint")
+
+
+for options, (sx, sy), (x, y) in (("-s 2 3 1", (2, 3), (0, 0)), ("-o .25 -.5", (1, 1), (0.25, -0.5)), ("-clamp on -s 2 -mm 0 1 -o 0 1 0 -t .5", (2, 1), (0, 1))):
+    rib = of_mtl(f"Kd .5 .5 .5\nmap_Kd {options} white.png\nKe 0 0 0\n")
+    near(f"map_Kd {options}", numbers(rib, "st"), [(sx * u + x, 1 - (sy * v + y)) for u, v in UV])
+    near("with its colour", painted(rib), [0.5] * 3)
+    t.expect("texturename" in rib, "and its picture")
+near("a picture without a colour is seen as it is", painted(of_mtl("map_Kd white.png\n")), [1] * 3)
+near("so are colours of vertices", numbers(of_mtl("Ns 10\n", rainbow), "Cs"), rainbow)
+near("which multiply a colour that is given", numbers(of_mtl("Kd .5 .5 .5\n", rainbow), "Cs"), [tuple(c / 2 for c in row) for row in rainbow])
+near("and are alone without materials", numbers(imported("bare.obj", obj(SQUARE, [(0, 1, 2, 3)], colors=rainbow)), "Cs"), rainbow)
+
+
+def off(head, rows):
+    """Returns .off with these columns after the places of the square."""
+    return f"{head}\n# a comment\n4 1 0\n" + "".join(f"{x} {y} {z} {row}\n" for (x, y, z), row in zip(SQUARE, rows)) + "4 0 1 2 3\n"
+
+
+BYTES = [(255, 0, 51), (0, 255, 0), (102, 204, 0), (0, 0, 0)]
+shares = [tuple(c / 255 for c in row) for row in BYTES]
+for what, head, rows in (("bytes", "COFF", [f"{r} {g} {b} 255" for r, g, b in BYTES]), ("bytes without alpha", "COFF", [f"{r} {g} {b}  # colour" for r, g, b in BYTES]),
+                         ("shares", "COFF", [f"{r} {g} {b} 1" for r, g, b in shares]), ("bytes behind normals", "CNOFF", [f"0 0 1 {r} {g} {b} 255" for r, g, b in BYTES])):
+    near(f".off with {what}", numbers(imported("colours.off", off(head, rows)), "Cs"), shares)
+t.expect("Cs" not in imported("plain.off", off("OFF", [""] * 4)), ".off without colours")
 
 t.finish()

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 
-#include "reyes/base/input_file.h"
+#include "reyes/bindings/assimp/file_content.h"
 
 namespace tomales::model {
 namespace {
@@ -54,12 +53,6 @@ constexpr Component kComponents[] = {
 };
 
 }  // namespace
-
-std::string contentOf(const std::string& path) {
-  std::ifstream in;
-  if (inputProblem(path).empty()) in.open(path, std::ios::binary);
-  return in.is_open() ? std::string(std::istreambuf_iterator<char>(in), {}) : std::string();
-}
 
 int componentsOf(const json& accessor) {
   const std::string type = accessor.value("type", "");

@@ -8,9 +8,6 @@
 
 namespace tomales::model {
 
-/// Returns the content of a file. Empty: it is empty or cannot be read.
-std::string contentOf(const std::string& path);
-
 class GltfBuffers {
  public:
   /// `binary`: the buffer within a .glb, from which the others differ by their "uri".

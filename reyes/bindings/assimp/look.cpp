@@ -86,8 +86,8 @@ bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
 /// Adds pictures to a look.
 class Painter {
  public:
-  Painter(const aiMaterial& material, Textures& textures, Look& look)
-      : material_(material), textures_(textures), look_(look) {}
+  Painter(const aiMaterial& material, Textures& textures, const LookSource& source, Look& look)
+      : material_(material), textures_(textures), source_(source), look_(look) {}
 
   void add(const Mapped& mapped) {
     aiString path;
@@ -98,7 +98,9 @@ class Painter {
       return;
     const std::string file = textures_.file(of(path), wrap[0], wrap[1]);
     if (file.empty()) return;
-    const TextureCoordinates at = coordinatesOf(material_, mapped.type, set, isGltf(material_));
+    TextureCoordinates at = coordinatesOf(material_, mapped.type, set, isGltf(material_));
+    if (const auto placed = source_.placed.find(mapped.type); placed != source_.placed.end())
+      at.stFromUv = at.stFromUv * placed->second;
     if (count_++ == 0) look_.first = at;
     if (at != look_.first && !look_.second) look_.second = at;
     if (at == look_.second)
@@ -130,6 +132,7 @@ class Painter {
 
   const aiMaterial& material_;
   Textures& textures_;
+  const LookSource& source_;
   Look& look_;
   std::string ofSecondSet_;
   int count_ = 0;
@@ -170,14 +173,14 @@ void makeUnlit(Look& look) {
   look.color = vec3(0.0f);
 }
 
-void addPictures(const aiMaterial& material, Textures& textures, bool pictureReplaces, Look& look) {
-  Painter painter(material, textures, look);
+void addPictures(const aiMaterial& material, Textures& textures, const LookSource& source, Look& look) {
+  Painter painter(material, textures, source, look);
   if (isGltf(material))
     for (const Mapped& mapped : kMetallicRoughness) painter.add(mapped);
   for (const Mapped& mapped : kMapped) painter.add(mapped);
   if (isGltf(material)) applyAlphaMode(material, painter, look);
   if (!painter.ofSecondSet().empty()) look.parameters.push_back(param("secondset", painter.ofSecondSet()));
-  if (pictureReplaces && find(look.parameters, "texturename")) look.color = vec3(1.0f);
+  if ((source.pictureReplaces || !source.isColorGiven) && find(look.parameters, "texturename")) look.color = vec3(1.0f);
   if (find(look.parameters, "texturename") || find(look.parameters, "emissionmap"))
     look.parameters.push_back(param("linearize", 1.0f));
   const float scale = number(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
@@ -190,8 +193,9 @@ void addPictures(const aiMaterial& material, Textures& textures, bool pictureRep
 
 }  // namespace
 
-Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces) {
+Look lookOf(const aiMaterial& material, Textures& textures, const LookSource& source) {
   Look out;
+  out.isColorGiven = source.isColorGiven;
   aiString name;
   material.Get(AI_MATKEY_NAME, name);
   out.name = of(name);
@@ -216,7 +220,7 @@ Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces
   if (const auto emitted = color(material, AI_MATKEY_COLOR_EMISSIVE); emitted && maxComponent(*emitted) > 0)
     out.parameters.push_back(
         param("emission", ValueType::Color, *emitted * number(material, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1)));
-  addPictures(material, textures, pictureReplaces, out);
+  addPictures(material, textures, source, out);
   int shading = 0;
   if (material.Get(AI_MATKEY_SHADING_MODEL, shading) == aiReturn_SUCCESS && shading == aiShadingMode_Unlit)
     makeUnlit(out);

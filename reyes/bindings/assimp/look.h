@@ -2,6 +2,7 @@
 #pragma once
 #include <assimp/material.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace tomales::model {
 struct Look {
   std::string name;
   vec3 color{0.8f};
+  bool isColorGiven = true;   ///< False: `color` is made up, and is none where vertices or pictures have colours.
   std::optional<vec3> unlit;  ///< What it glows in, whatever lights it; `color` is black then.
   float opacity = 1;
   bool usesVertexAlpha = true;
@@ -24,8 +26,13 @@ struct Look {
   std::string leftOut;                       ///< Names of properties that the shader does not have; empty: none.
 };
 
-/// `pictureReplaces`: a picture takes the place of the colour, which it multiplies elsewhere.
-Look lookOf(const aiMaterial& material, Textures& textures, bool pictureReplaces);
+/// What the format of a material says beyond Assimp.
+struct LookSource {
+  bool pictureReplaces = false;          ///< A picture takes the place of the colour, which it multiplies elsewhere.
+  bool isColorGiven = true;              ///< As in Look.
+  std::map<aiTextureType, mat3> placed;  ///< How pictures are placed, as in MtlMaterial.
+};
+Look lookOf(const aiMaterial& material, Textures& textures, const LookSource& source);
 /// Color, Opacity and Surface.
 Requests requestsOf(const Look& look);
 

@@ -104,7 +104,7 @@ class Variables {
   void addColors(const aiMesh& mesh, const Look& look) {
     if (!mesh.HasVertexColors(0)) return;
     const aiColor4D* colors = mesh.mColors[0];
-    const vec3 multiplied = look.unlit.value_or(look.color);
+    const vec3 multiplied = look.unlit.value_or(look.isColorGiven ? look.color : vec3(1.0f));
     add(look.unlit ? "emission" : "Cs", ValueType::Color, 3,
         [&](int v) { return multiplied * vec3(colors[v].r, colors[v].g, colors[v].b); });
     if (look.usesVertexAlpha &&

@@ -7,9 +7,13 @@
 #include <fmt/ranges.h>
 
 #include <assimp/Importer.hpp>
+#include <deque>
 
 #include "reyes/base/text.h"
+#include "reyes/bindings/assimp/file_content.h"
+#include "reyes/bindings/assimp/mtl.h"
 #include "reyes/bindings/assimp/plain_gltf.h"
+#include "reyes/bindings/assimp/plain_off.h"
 #include "reyes/bindings/assimp/scene_file.h"
 
 namespace tomales::model {
@@ -18,12 +22,17 @@ namespace {
 /// The files of a model as Assimp gets them.
 class ModelFiles : public Assimp::DefaultIOSystem {
  public:
-  ModelFiles(const std::string& model, const PlainGltf& gltf) : model_(model), gltf_(gltf) {}
+  /// `materials` is filled as Assimp reads the files of materials that an .obj names.
+  ModelFiles(const std::string& model, const PlainGltf& gltf, MtlMaterials& materials)
+      : model_(model), ending_(endingOf(model)), gltf_(gltf), materials_(materials) {}
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const std::string name = file;
     if (name == model_ && !gltf_.bytes.empty()) return streamOf(gltf_.bytes);
     if (name.ends_with(kFloatsFile) && !gltf_.floats.empty()) return streamOf(gltf_.floats);
+    if (name == model_ && ending_ == ".off") return streamOf(texts_.emplace_back(plainOff(contentOf(name))));
+    if (name != model_ && ending_ == ".obj" && Exists(file))
+      return streamOf(texts_.emplace_back(plainMtl(contentOf(name), materials_)));
     return DefaultIOSystem::Open(file, mode);
   }
 
@@ -33,7 +42,10 @@ class ModelFiles : public Assimp::DefaultIOSystem {
   }
 
   const std::string& model_;
+  const std::string ending_;
   const PlainGltf& gltf_;
+  MtlMaterials& materials_;
+  std::deque<std::string> texts_;  // Those that streams read from.
 };
 
 void tellOfExtensions(const PlainGltf& gltf, const SourceLoc& where, Log& log) {
@@ -52,11 +64,12 @@ void importModel(const Settings& settings, Log& log) {
   const std::string ending = endingOf(settings.model);
   const PlainGltf gltf = ending == ".gltf" || ending == ".glb" ? plainGltf(settings.model) : PlainGltf();
   tellOfExtensions(gltf, where, log);
+  MtlMaterials materials;
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer.SetIOHandler(new ModelFiles(settings.model, gltf));  // which it deletes
+  importer.SetIOHandler(new ModelFiles(settings.model, gltf, materials));  // which it deletes
   const aiScene* scene = importer.ReadFile(settings.model, aiProcess_ValidateDataStructure);
-  if (scene && scene->mRootNode) return writeScene(*scene, settings, log);
+  if (scene && scene->mRootNode) return writeScene(*scene, settings, materials, log);
   log.report(Severity::Error, "import-unreadable", where, std::string("cannot be read: ") + importer.GetErrorString());
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "reyes/bindings/assimp/file_content.h"
 #include "reyes/bindings/assimp/gltf_buffers.h"
 
 namespace tomales::model {

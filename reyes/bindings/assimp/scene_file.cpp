@@ -28,9 +28,10 @@ mat4 worldFromModel(const Settings& settings) {
 
 class SceneWriter {
  public:
-  SceneWriter(const aiScene& scene, const Settings& settings, Log& log)
+  SceneWriter(const aiScene& scene, const Settings& settings, const MtlMaterials& materials, Log& log)
       : scene_(scene),
         settings_(settings),
+        materials_(materials),
         log_(log),
         where_{std::make_shared<const std::string>(settings.model), 0},
         nodes_(nodesOf(scene, worldFromModel(settings))),
@@ -54,16 +55,26 @@ class SceneWriter {
     log_.report(severity, code, where_, message);
   }
 
-  /// Converts the materials. In .fbx and .dae a picture replaces a colour.
   void addLooks() {
-    const std::string ending = endingOf(settings_.model);
     Textures textures(scene_, settings_, parts_, log_);
     for (unsigned k = 0; k < scene_.mNumMaterials; ++k) {
-      looks_.push_back(lookOf(*scene_.mMaterials[k], textures, ending == ".fbx" || ending == ".dae"));
+      looks_.push_back(lookOf(*scene_.mMaterials[k], textures, sourceOf(*scene_.mMaterials[k])));
       if (const Look& look = looks_.back(); !look.leftOut.empty())
         note(Severity::Warning, "import-material",
              fmt::format("material \"{}\" has what disney has nothing for: {}", look.name, look.leftOut));
     }
+  }
+  /// In .fbx and .dae a picture replaces a colour. Assimp makes up colours for .off, and for .obj that give none.
+  LookSource sourceOf(const aiMaterial& material) const {
+    const std::string ending = endingOf(settings_.model);
+    LookSource out{ending == ".fbx" || ending == ".dae", ending != ".obj" && ending != ".off", {}};
+    aiString name;
+    material.Get(AI_MATKEY_NAME, name);
+    if (const auto mtl = materials_.find(of(name)); mtl != materials_.end()) {
+      out.isColorGiven = mtl->second.hasColor;
+      out.placed = mtl->second.placed;
+    }
+    return out;
   }
 
   void tellOfWhatIsLeftOut() {
@@ -189,6 +200,7 @@ class SceneWriter {
 
   const aiScene& scene_;
   const Settings& settings_;
+  const MtlMaterials& materials_;
   Log& log_;
   const SourceLoc where_;
   const Nodes nodes_;
@@ -202,6 +214,8 @@ class SceneWriter {
 
 }  // namespace
 
-void writeScene(const aiScene& scene, const Settings& settings, Log& log) { SceneWriter(scene, settings, log).write(); }
+void writeScene(const aiScene& scene, const Settings& settings, const MtlMaterials& materials, Log& log) {
+  SceneWriter(scene, settings, materials, log).write();
+}
 
 }  // namespace tomales::model
