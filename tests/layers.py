@@ -41,7 +41,7 @@ THIRD_PARTY = {
     "png.h": ["reyes/image/png_file.cpp"],
     "libdeflate.h": ["reyes/image/exr_rows.cpp"],
     "tbb/": ["reyes/base/parallel.cpp"],
-    "nlohmann/": ["reyes/app/"],
+    "nlohmann/": ["reyes/app/", "reyes/bindings/assimp/gltf_buffers.h"],
     "CLI/": ["reyes/app/"],
     "httplib.h": ["reyes/app/relight/http_module.cpp"],
     "zstd.h": ["reyes/base/chunk_file.cpp", "reyes/base/record_file.cpp"],

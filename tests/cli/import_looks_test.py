@@ -4,7 +4,7 @@ import pathlib
 import re
 import sys
 
-from models import Gltf, obj, png
+from models import Gltf, obj, ply, png
 from program import Suite
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "image"))
@@ -178,5 +178,11 @@ for what, head, rows in (("bytes", "COFF", [f"{r} {g} {b} 255" for r, g, b in BY
                          ("shares", "COFF", [f"{r} {g} {b} 1" for r, g, b in shares]), ("bytes behind normals", "CNOFF", [f"0 0 1 {r} {g} {b} 255" for r, g, b in BYTES])):
     near(f".off with {what}", numbers(imported("colours.off", off(head, rows)), "Cs"), shares)
 t.expect("Cs" not in imported("plain.off", off("OFF", [""] * 4)), ".off without colours")
+
+# What cannot be seen or read is told of.
+t.write("paint.mtl", "newmtl a paint\nKd 1 1 1\nd 0\n")
+imported("clear.obj", obj(SQUARE, [(0, 1, 2, 3)], before="mtllib paint.mtl", material="a paint"), 0, 'material "a paint" has the opacity 0', "import-invisible")
+of_faces = ply(SQUARE, FACES).replace("vertex_indices\n", "vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n").replace("3 0 1 2", "3 0 1 2 255 0 0").replace("3 0 2 3", "3 0 2 3 0 255 0")
+imported("faces.ply", of_faces, 0, "colours of faces are left out", "import-colors")
 
 t.finish()

@@ -10,6 +10,7 @@
 #include "reyes/bindings/assimp/look.h"
 #include "reyes/bindings/assimp/mesh.h"
 #include "reyes/bindings/assimp/parts.h"
+#include "reyes/bindings/assimp/ply_header.h"
 
 namespace tomales::model {
 namespace {
@@ -62,6 +63,9 @@ class SceneWriter {
       if (const Look& look = looks_.back(); !look.leftOut.empty())
         note(Severity::Warning, "import-material",
              fmt::format("material \"{}\" has what disney has nothing for: {}", look.name, look.leftOut));
+      if (looks_.back().opacity == 0)
+        note(Severity::Note, "import-invisible",
+             fmt::format("material \"{}\" has the opacity 0: nothing that has it is to be seen", looks_.back().name));
     }
   }
   /// In .fbx and .dae a picture replaces a colour. Assimp makes up colours for .off, and for .obj that give none.
@@ -91,6 +95,8 @@ class SceneWriter {
     if (const auto morphed = count(&aiMesh::mNumAnimMeshes); morphed > 0)
       note(Severity::Note, "import-morph",
            fmt::format("the other shapes of {} meshes are left out: each is taken in its first shape", morphed));
+    if (endingOf(settings_.model) == ".ply" && hasColorsOfFaces(settings_.model))
+      note(Severity::Warning, "import-colors", "colours of faces are left out: Assimp reads those of vertices alone");
     if (nodes_.unusable > 0)
       note(Severity::Warning, "import-transformation",
            fmt::format("{} objects are left out, as their transformations flatten them or are no finite numbers",
