@@ -2,6 +2,7 @@
 import math
 import pathlib
 import re
+import struct
 import sys
 
 from models import Gltf, obj, ply, png
@@ -179,10 +180,18 @@ for what, head, rows in (("bytes", "COFF", [f"{r} {g} {b} 255" for r, g, b in BY
     near(f".off with {what}", numbers(imported("colours.off", off(head, rows)), "Cs"), shares)
 t.expect("Cs" not in imported("plain.off", off("OFF", [""] * 4)), ".off without colours")
 
-# What cannot be seen or read is told of.
+# What cannot be seen is told of.
 t.write("paint.mtl", "newmtl a paint\nKd 1 1 1\nd 0\n")
 imported("clear.obj", obj(SQUARE, [(0, 1, 2, 3)], before="mtllib paint.mtl", material="a paint"), 0, 'material "a paint" has the opacity 0', "import-invisible")
-of_faces = ply(SQUARE, FACES).replace("vertex_indices\n", "vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n").replace("3 0 1 2", "3 0 1 2 255 0 0").replace("3 0 2 3", "3 0 2 3 0 255 0")
-imported("faces.ply", of_faces, 0, "colours of faces are left out", "import-colors")
+
+# Faces of .ply may have colours.
+LIST = "property list uchar int vertex_indices\n"
+SHADES = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+of_faces = ply(SQUARE, FACES).replace(LIST, LIST + SHADES).replace("3 0 1 2", "3 0 1 2 255 0 51").replace("3 0 2 3", "3 0 2 3 0 102 0")
+near("colours of faces in text", numbers(imported("faces.ply", of_faces), "Cs"), [(1, 0, 0.2), (0, 0.4, 0)])
+for order, sign in (("little", "<"), ("big", ">")):
+    head = ply(SQUARE, FACES).split("end_header\n")[0].replace("ascii", f"binary_{order}_endian").replace(LIST, SHADES + LIST) + "end_header\n"
+    body = b"".join(struct.pack(sign + "3f", *p) for p in SQUARE) + b"".join(struct.pack(sign + "3BB3i", *c, 3, *f) for c, f in zip(((255, 0, 51), (0, 102, 0)), FACES))
+    near(f"and in binary, {order} end first", numbers(imported("faces.ply", head.encode() + body), "Cs"), [(1, 0, 0.2), (0, 0.4, 0)])
 
 t.finish()

@@ -155,6 +155,9 @@ def shaped(points, faces):
 for what, (points, faces, expected) in SHAPES.items():
     for name, model in FORMATS.items():
         judge(what, name, model(points, faces), "either" if not points else expected)
+coloured = ply(square, [(0, 1, 2), (0, 2, 3)]).replace("vertex_indices\n", "vertex_indices\nproperty uchar red\n")
+judge("elements of nothing", "odd.ply", coloured.replace("element face", f"element nothing {1 << 62}\nelement face"), "either")
+judge("faces beyond the file", "odd.ply", coloured.replace("element face 2", f"element face {1 << 62}"), "either")
 for name, model in FORMATS.items():
     whole = model(square, [(0, 1, 2), (0, 2, 3)])
     for share in (0.3, 0.6, 0.9):

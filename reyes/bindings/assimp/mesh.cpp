@@ -14,6 +14,7 @@ namespace {
 /// Faces of one kind: vertices of the mesh.
 struct Faces {
   std::vector<int> counts, corners;
+  std::vector<size_t> numbers;  ///< Their numbers in the mesh.
 };
 
 struct Sorted {
@@ -37,6 +38,7 @@ Sorted sortedFaces(const aiMesh& mesh) {
     if (face.mNumIndices == 0) continue;
     Faces& to = face.mNumIndices == 1 ? out.points : face.mNumIndices == 2 ? out.lines : out.polygons;
     to.counts.push_back(static_cast<int>(face.mNumIndices));
+    to.numbers.push_back(f);
     to.corners.insert(to.corners.end(), face.mIndices, end);
   }
   return out;
@@ -140,6 +142,11 @@ Request polygons(const aiMesh& mesh, const Look& look, const Faces& faces, const
     variables.list.push_back(
         variable("N", Storage::FaceVarying, ValueType::Normal,
                  flat(smoothNormals(welded.points, faces.counts, corners, settings.smooth_degrees))));
+  if (!mesh.HasVertexColors(0) && settings.faceColors.size() == mesh.mNumFaces) {
+    std::vector<vec3> colors;
+    for (const size_t face : faces.numbers) colors.push_back(look.color * settings.faceColors[face]);
+    variables.list.push_back(variable("Cs", Storage::Uniform, ValueType::Color, flat(colors)));
+  }
   variables.list.insert(variables.list.begin(), variable("P", Storage::Vertex, ValueType::Point, flat(welded.points)));
   if (settings.subdivide)
     return callWith(std::move(variables.list), "SubdivisionMesh", "catmull-clark", faces.counts, std::move(corners),

@@ -10,7 +10,8 @@ namespace tomales::model {
 struct GeometrySettings {
   bool subdivide = false;
   float smooth_degrees = 45;
-  bool keepsNormals = true;  ///< False: those of the file say nothing that its faces do not.
+  bool keepsNormals = true;      ///< False: those of the file say nothing that its faces do not.
+  std::vector<vec3> faceColors;  ///< They count where the vertices of a mesh of so many faces have none.
 };
 
 struct Geometry {

@@ -10,7 +10,7 @@
 #include "reyes/bindings/assimp/look.h"
 #include "reyes/bindings/assimp/mesh.h"
 #include "reyes/bindings/assimp/parts.h"
-#include "reyes/bindings/assimp/ply_header.h"
+#include "reyes/bindings/assimp/ply_colors.h"
 
 namespace tomales::model {
 namespace {
@@ -95,8 +95,6 @@ class SceneWriter {
     if (const auto morphed = count(&aiMesh::mNumAnimMeshes); morphed > 0)
       note(Severity::Note, "import-morph",
            fmt::format("the other shapes of {} meshes are left out: each is taken in its first shape", morphed));
-    if (endingOf(settings_.model) == ".ply" && hasColorsOfFaces(settings_.model))
-      note(Severity::Warning, "import-colors", "colours of faces are left out: Assimp reads those of vertices alone");
     if (nodes_.unusable > 0)
       note(Severity::Warning, "import-transformation",
            fmt::format("{} objects are left out, as their transformations flatten them or are no finite numbers",
@@ -106,7 +104,9 @@ class SceneWriter {
   /// Adds the requests that draw the mesh, or that name an archive or object with it.
   void addMesh(unsigned index) {
     const aiMesh& mesh = *scene_.mMeshes[index];
-    const GeometrySettings how{settings_.subdivide, settings_.smooth_degrees, endingOf(settings_.model) != ".stl"};
+    const std::string ending = endingOf(settings_.model);
+    const GeometrySettings how{settings_.subdivide, settings_.smooth_degrees, ending != ".stl",
+                               ending == ".ply" ? colorsOfFaces(settings_.model) : std::vector<vec3>()};
     Geometry geometry = geometryOf(mesh, looks_[mesh.mMaterialIndex], how);
     if (geometry.unusableFaces > 0)
       note(Severity::Warning, "import-coordinates",

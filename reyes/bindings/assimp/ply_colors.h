@@ -1,0 +1,13 @@
+// Colours that a .ply file gives to faces, which Assimp 5.2 does not read. Threads: plain function.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reyes/base/math.h"
+
+namespace tomales::model {
+
+/// Returns one for each face, or none where the file has none or ends early.
+std::vector<vec3> colorsOfFaces(const std::string& path);
+
+}  // namespace tomales::model
