@@ -2,6 +2,7 @@
 // (reyes/shader_api.h): no plugin needs them.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ constexpr int32_t kArrayVaries = 0x10000;
 /// it.
 constexpr int kDefaultLightSamples = 16;
 
-/// Added to the type of a parameter that is only what an output begins with: the host cannot take the arrays, matrices
-/// and texts that shaders compute. Messages do not tell it.
+/// Added to the type of a parameter that is only what an output begins with, which the shader assigns later. Messages
+/// do not tell it.
 constexpr int32_t kBeginsOutput = 0x20000;
 
 /// Returns the form of a light that AreaLightSource runs: its P lies on the geometry. Returns null if the light is not
@@ -27,6 +28,24 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but the light that a lamp at
 /// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
+/// Tells whether the shader is such a form, and shines from both sides of its geometry: illuminate() has no cone.
+bool shinesAllRound(const TmShader& light);
+
+/// A value of a parameter, which others ask for.
+struct RslValue {
+  bool varies = false;
+  /// If it varies, component k of point i is [k * padded + i]; else element by element, component by component. Empty
+  /// for texts.
+  std::vector<float> floats;
+  std::vector<std::string> texts;
+};
+/// Tells whether the shader is written in RSL and computes the default of that parameter when it runs.
+bool rslComputesDefault(const TmShader& shader, int32_t parameter);
+/// Finds the value of such a parameter at the active points of a grid, whose `params` are those of the shader. Arrays
+/// and matrices are those of the first active point.
+RslValue rslValue(const TmShader& shader, int32_t parameter, const TmGrid& grid);
+/// Does the same before anything is shaded. Returns nothing if the value depends on the points or on the scene.
+std::optional<RslValue> rslFixedValue(const TmShader& shader, int32_t parameter, const TmValue* params);
 
 /// Returns the texts that stand in the code of a shader, such as names of pictures; none if it is not written in RSL.
 std::vector<std::string> rslTexts(const TmShader& shader);

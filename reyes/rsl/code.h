@@ -75,6 +75,7 @@ struct Parameter {
   /// True if the shader computes the default when it is given no value: `floats` and `texts` then are the marks of
   /// reyes/computed_default.h.
   bool computed = false;
+  bool told = false;  ///< True in the code of a default (defaultOf()): the value is what the code is run for.
   Place place{};
 };
 
@@ -85,6 +86,7 @@ struct Code {
   std::vector<Parameter> parameters;
   std::vector<const Builtin*> plugins;  ///< The functions that Op::Plugin calls.
   Block body;
+  size_t defaults = 0;  ///< So many instructions at the beginning of `body`, as it was lowered, give parameters values.
   int32_t labels = 0;
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.

@@ -145,13 +145,18 @@ void HostedShader::declareForHost(const char* name, TmRole role, const float* va
   params_.push_back({name, TM_FLOAT, 1, value, nullptr, "", role});
 }
 
-const Program& HostedShader::programFor(const TmGrid& grid) const {
+std::vector<bool> HostedShader::varyingOf(const TmValue* params) const {
   std::vector<bool> varying;
   for (size_t k = 0; k < lowered_.parameters.size(); ++k) {
-    if (grid.params[k].step == 0 || lowered_.parameters[k].output) continue;
+    if (params[k].step == 0 || lowered_.parameters[k].output) continue;
     varying.resize(params_.size(), false);
     varying[k] = true;
   }
+  return varying;
+}
+
+const Program& HostedShader::programFor(const TmGrid& grid) const {
+  const std::vector<bool> varying = varyingOf(grid.params);
   if (varying.empty()) return *uniform_;
   const std::lock_guard lock(mutex_);
   std::unique_ptr<const Program>& program = others_[varying];

@@ -8,6 +8,7 @@
 
 #include "reyes/rsl/check.h"
 #include "reyes/rsl/machine/program.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shader_api.h"
 
 namespace tomales::compiler {
@@ -29,12 +30,20 @@ class HostedShader {
   static const HostedShader* of(const TmShader& shader);
   const Code& code() const { return uniform_->code(); }
   const Code& lowered() const { return lowered_; }
+  /// Tells whether the shader computes the default of that parameter.
+  bool computes(size_t parameter) const;
+  /// These two are rslValue() and rslFixedValue() (reyes/rsl_host.h). Pre: computes(parameter).
+  RslValue value(size_t parameter, const TmGrid& grid) const;
+  std::optional<RslValue> fixedValue(size_t parameter, const TmValue* params) const;
   /// Returns the part that moves the points of a surface that assigns P (passes/moving.cpp). Null if nothing does.
   const HostedShader* displacement() const { return displacement_.get(); }
 
  private:
   static void shade(const TmGrid* grid);
+  /// Tells of each parameter whether it varies. Empty if none does.
+  std::vector<bool> varyingOf(const TmValue* params) const;
   const Program& programFor(const TmGrid& grid) const;
+  const Program& defaultProgram(size_t parameter, const TmValue* params) const;
   void declareParameters();
   void declareExtent();
   void declareForHost(const char* name, TmRole role, const float* value);
@@ -45,6 +54,8 @@ class HostedShader {
   mutable std::mutex mutex_;
   /// Indexed by the parameters that vary.
   mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;
+  /// The codes of defaults (defaultOf()), by parameter and by the parameters that vary.
+  mutable std::map<std::pair<size_t, std::vector<bool>>, std::unique_ptr<const Program>> defaults_;
   std::vector<TmParamDecl> params_;
   std::vector<std::vector<const char*>> strings_;
   struct Hosted {

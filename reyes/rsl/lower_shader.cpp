@@ -47,6 +47,7 @@ void Lowering::shader(const Shader& s) {
   code_.doc = s.doc;
   shinesFromMany_ = s.kind == ShaderKind::Light && lightsOf(*s.body) > 1;
   for (const auto& p : s.parameters) parameter(*p);
+  code_.defaults = code_.body.size();
   functions_.push_back({-1, code_.labels++});
   if (contains(*s.body, {StmtKind::Return})) {
     Block body = block([&] { statement(*s.body); });
@@ -73,6 +74,7 @@ void Lowering::beginColor() {
   if (beginsWithCopy(code_.body, Ci)) return;
   Block body = std::exchange(code_.body, {});
   initialise(Ci, number(0));
+  code_.defaults += code_.body.size();
   code_.body.insert(code_.body.end(), std::make_move_iterator(body.begin()), std::make_move_iterator(body.end()));
 }
 
@@ -93,7 +95,7 @@ void Lowering::parameter(const Variable& v) {
   const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
   const int32_t output = stored ? outputParameter(v) : -1;
   givenParameter(v);
-  code_.parameters.back().beginsOutput = v.output && v.assigned && !stored;
+  code_.parameters.back().beginsOutput = v.output && v.assigned;
   if (!stored) return;
   const int32_t given = registers_[&v];
   initialise(output, given);

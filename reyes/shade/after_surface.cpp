@@ -45,7 +45,8 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, con
     context.onlyLightGroup = seen.onlyLightGroup;
     ArenaLease arena;
     Batch batch(*impl_, group, context, *arena);
-    batch.setPoints(through, *group.atmosphere, {}, colors, 0);
+    batch.setPoints(through, *group.atmosphere, colors, 0);
+    batch.ofSurface = &before;
     if (!batch.run(*group.atmosphere, batch.tm)) return false;
     batch.blackOutNonFinite(*group.atmosphere);
     return true;

@@ -6,14 +6,14 @@
 namespace tomales {
 namespace {
 
-/// Lays out an array that varies, as kArrayVaries (reyes/rsl_host.h) says.
-TmValue arrayOf(const Override& o, int32_t length, const std::function<const float*(int)>& primvar, const TmGrid& g,
-                Arena& arena) {
+/// Lays out an array or a matrix that varies, as kArrayVaries (reyes/rsl_host.h) says.
+TmValue arrayOf(const Override& o, int32_t length, const Batch& batch) {
   TmValue out{{}, 1, length, nullptr};
-  float* const all = arena.floats(g.padded * o.width);
-  const auto place = [&](int k) { return all + static_cast<ptrdiff_t>(k) * g.padded; };
-  for (int k = 0; k < o.width; ++k) std::copy_n(primvar(o.primvarOffset + k), g.count, place(k));
-  for (int k = 0; k < o.width / length; ++k) out.c[k] = place(k);
+  const int count = batch.tm.count, apart = batch.tm.padded;
+  float* const all = batch.arena.floats(apart * o.width);
+  const auto place = [&](int k) { return all + static_cast<ptrdiff_t>(k) * apart; };
+  for (int k = 0; k < o.width; ++k) std::copy_n(batch.primvar(o.primvarOffset + k), count, place(k));
+  for (int k = 0; k < std::min(3, o.width / length); ++k) out.c[k] = place(k);
   return out;
 }
 
@@ -32,8 +32,27 @@ TmConstVec3 Batch::constant(const vec3& v) {
   return view(out);
 }
 
-void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
-                      const std::function<const float*(int)>& primvar) {
+bool Batch::hasPrimvars() const { return grid || (points && points->primvarFloats() >= group.primvarFloats); }
+
+const float* Batch::primvar(int offset) const {
+  return grid ? grid->primvar(offset) : (wide_ ? wide_->points : *points).primvar(offset);
+}
+
+std::vector<TmValue> Batch::valuesOf(const BoundShader& shader) const {
+  std::vector<TmValue> out = shader.values;
+  if (!hasPrimvars()) return out;
+  for (const Override& o : group.overridesOf(shader)) {
+    TmValue& value = out[static_cast<size_t>(o.param)];
+    if ((shader.shader->params[o.param].type & kArrayVaries) != 0)
+      value = arrayOf(o, value.length, *this);
+    else
+      for (int k = 0; k < o.width; ++k) value.c[k] = primvar(o.primvarOffset + k);
+    value.step = 1;
+  }
+  return out;
+}
+
+void Batch::setCommon(int count, const BoundShader& shader) {
   tm = {};
   own = &shader;
   tm.structBytes = sizeof(TmGrid);
@@ -53,35 +72,29 @@ void Batch::setCommon(int count, const BoundShader& shader, const std::vector<Ov
   stencil = {};
   wide_.reset();
   gathered.who = nullptr;
+}
 
-  params_ = shader.values;
-  for (const Override& o : overrides) {
-    TmValue& value = params_[static_cast<size_t>(o.param)];
-    if (value.length > 1)
-      value = arrayOf(o, value.length, primvar, tm, arena);
-    else
-      for (int k = 0; k < o.width; ++k) value.c[k] = primvar(o.primvarOffset + k);
-    value.step = 1;
-  }
+void Batch::setVariables() {
+  params_ = valuesOf(*own);
   tm.params = params_.data();
-
   const Attributes& a = *group.group->attributes;
   const auto color = [&](int offset, const vec3& attribute) {
-    if (offset < 0) return constant(attribute);
+    if (offset < 0 || !hasPrimvars()) return constant(attribute);
     return TmConstVec3{primvar(offset), primvar(offset + 1), primvar(offset + 2)};
   };
   tm.Cs = color(group.CsOffset, a.color);
   tm.Os = color(group.OsOffset, a.opacity);
 }
 
-void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vector<Override>& overrides,
-                      ShadedPoints& out, int begin) {
+void Batch::setPoints(ShadePoints& p, const BoundShader& shader, ShadedPoints& out, int begin) {
   const bool wide = shader.can(TM_NEIGHBOURS) && p.hasSteps();
   std::optional<Widened> neighbours;
   if (wide) neighbours = widened(p, context.kind == RayKind::Camera && !scene.camera.perspective(), arena);
-  ShadePoints& all = wide ? neighbours->points : p;
-  setCommon(all.count(), shader, overrides, [&](int offset) { return all.primvar(offset); });
+  setCommon(wide ? neighbours->points.count() : p.count(), shader);
   points = &p;
+  wide_ = std::move(neighbours);
+  ShadePoints& all = wide ? wide_->points : p;
+  setVariables();
   tm.P = {all.channel(kPx), all.channel(kPy), all.channel(kPz)};
   tm.N = {all.channel(kNx), all.channel(kNy), all.channel(kNz)};
   tm.Ng = all.vec(kNgx);
@@ -100,7 +113,6 @@ void Batch::setPoints(ShadePoints& p, const BoundShader& shader, const std::vect
   if (!wide) return;
   tm.Ci = arena.vec3(tm.count);
   tm.Oi = arena.vec3(tm.count);
-  wide_ = std::move(neighbours);
   stencil = wide_->stencil;
 }
 
@@ -167,7 +179,8 @@ void Batch::setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& m
 
 void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
   const int n = static_cast<int>(probe.P.size());
-  setCommon(n, shader, {}, [](int) { return nullptr; });
+  setCommon(n, shader);
+  setVariables();
   const TmConstVec3 zero = constant(vec3(0.0f));
   const auto copy = [&](const std::vector<vec3>& from) {
     const TmVec3 to = arena.vec3(n);
@@ -198,7 +211,8 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
 
 void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   const int n = static_cast<int>(p.alpha.size());
-  setCommon(n, shader, {}, [](int) { return nullptr; });
+  setCommon(n, shader);
+  setVariables();
   const TmConstVec3 zero = constant(vec3(0.0f));
   tm.P = arena.vec3(n);
   tm.N = arena.vec3(n);

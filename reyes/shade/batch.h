@@ -3,6 +3,7 @@
 #pragma once
 #include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/arena.h"
 #include "reyes/shade/bound_scene.h"
 #include "reyes/shade/lights.h"
@@ -22,14 +23,13 @@ class Batch {
 
   /// Sets the inputs of a surface or volume shader from points, and its outputs to elements of `out` from `begin` on.
   /// Adds neighbours where the shader wants them and the points have steps.
-  void setPoints(ShadePoints& points, const BoundShader& shader, const std::vector<Override>& overrides,
-                 ShadedPoints& out, int begin);
+  void setPoints(ShadePoints& points, const BoundShader& shader, ShadedPoints& out, int begin);
   /// Lets the shader's outputs be stored in `out` from `begin` on. Call it after setPoints().
   void openOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
   /// Copies the outputs for the points, without neighbours, to `out`. Call it when the shader has run.
   void closeOutputs(const std::vector<BoundVariable>& variables, ShadedPoints& out, int begin);
   /// Sets the inputs and outputs of a displacement shader to motion key 0 of a grid.
-  void setGrid(Grid& grid, const BoundShader& shader, const std::vector<Override>& overrides);
+  void setGrid(Grid& grid, const BoundShader& shader);
 
   /// Makes this a copy of the batch `asking`, whose shader asks for light at `moved`: its own points at other
   /// positions. Lights then see the surface and the shader of `asking`. `g` has the mask.
@@ -43,11 +43,18 @@ class Batch {
   /// value. Returns false and leaves `out` alone if neither does. Inactive points get any value.
   bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
 
-  /// Returns values of the primitive variables at the points and their neighbours. Pre: points is set.
-  const float* primvar(int offset) const { return (wide_ ? wide_->points : *points).primvar(offset); }
+  /// Tells whether primitive variables are known. Points in the air of a Volume have none.
+  bool hasPrimvars() const;
+  /// Returns values of the primitive variables at the points and their neighbours. Pre: hasPrimvars().
+  const float* primvar(int offset) const;
+  /// Returns the parameters of a shader of the group, with those that primitive variables give.
+  std::vector<TmValue> valuesOf(const BoundShader& shader) const;
 
   /// Calls the shader. Returns false, after a report, if it has thrown.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
+  /// Finds the value of a parameter whose default the shader computes (rslComputesDefault()), at the points of a grid,
+  /// whose `params` are the shader's. Returns nothing, after a report, if it has thrown, or if it would ask itself.
+  std::optional<RslValue> computed(const BoundShader& shader, int param, const TmGrid& tmGrid);
   /// Makes points where the shader returned NaN or infinity opaque and black, with a warning.
   void blackOutNonFinite(const BoundShader& shader);
   /// Fills in `typeOut` and `out` with numbers (or a text) of that type, which live as long as the batch.
@@ -64,6 +71,8 @@ class Batch {
   const ShadePoints* points = nullptr;
   Stencil stencil;             ///< Unset if there are no neighbours.
   const Grid* grid = nullptr;  ///< Null while shading.
+  /// What the surface has left at the points, while the atmosphere runs; else null.
+  const ShadedPoints* ofSurface = nullptr;
   const BoundShader* running = nullptr;
   /// The shader that the batch has been set for. `running` is another while lights are evaluated.
   const BoundShader* own = nullptr;
@@ -96,8 +105,11 @@ class Batch {
   };
 
  private:
-  void setCommon(int count, const BoundShader& shader, const std::vector<Override>& overrides,
-                 const std::function<const float*(int offset)>& primvar);
+  /// Calls what runs code of the shader. Returns false, after a report, if it has thrown.
+  bool guarded(const BoundShader& shader, const std::function<void()>& call);
+  void setCommon(int count, const BoundShader& shader);
+  /// Sets what primitive variables may give. Call it when points or grid is set.
+  void setVariables();
   CrashNote::Text crashText() const;
   TmConstVec3 constant(const vec3& v);
   TmConstVec3 velocity();
@@ -105,6 +117,7 @@ class Batch {
   std::vector<TmValue> params_;
   std::optional<Widened> wide_;
   std::deque<std::string> answers_;
+  bool computing_ = false;  ///< computed() is running.
 };
 
 /// Returns the default options, with the fields that a caller gives. The caller's struct begins with structBytes, which

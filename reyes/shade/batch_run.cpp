@@ -21,6 +21,21 @@ void Batch::blackOutNonFinite(const BoundShader& shader) {
 }
 
 bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
+  TmGrid called = tmGrid;
+  called.shader = shader.shader;
+  return guarded(shader, [&] { shader.shader->shade(&called); });
+}
+
+std::optional<RslValue> Batch::computed(const BoundShader& shader, int param, const TmGrid& tmGrid) {
+  if (computing_) return std::nullopt;
+  computing_ = true;
+  RslValue out;
+  const bool finished = guarded(shader, [&] { out = rslValue(*shader.shader, param, tmGrid); });
+  computing_ = false;
+  return finished ? std::optional(std::move(out)) : std::nullopt;
+}
+
+bool Batch::guarded(const BoundShader& shader, const std::function<void()>& call) {
   const BoundShader* caller = std::exchange(running, &shader);
   const CrashNote note(crashText());
   bool finished = true;
@@ -29,10 +44,8 @@ bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
            fmt::format("threw an exception ({}); its result is discarded", what));
     finished = false;
   };
-  TmGrid called = tmGrid;
-  called.shader = shader.shader;
   try {
-    shader.shader->shade(&called);
+    call();
   } catch (const std::exception& e) {
     threw(e.what());
   } catch (...) {

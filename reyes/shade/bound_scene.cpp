@@ -56,6 +56,30 @@ void findPrimvars(BoundGroup& g) {
   }
 }
 
+/// Has the surface keep those of its outputs that the atmosphere, which runs after it, may ask for: those that its text
+/// names.
+void tellAir(BoundGroup& g) {
+  if (!g.atmosphere) return;
+  int next = 0;
+  for (const BoundVariable& v : g.variables) next = std::max(next, v.first + v.width);
+  for (const std::string& name : rslTexts(*g.atmosphere->shader)) {
+    const int index = g.surface->outputNamed(name);
+    if (index < 0) continue;
+    const auto same = [&](const BoundVariable& v) { return v.from == VariableSource::Output && v.index == index; };
+    auto kept = std::find_if(g.variables.begin(), g.variables.end(), same);
+    if (kept == g.variables.end()) {
+      BoundVariable v;
+      v.from = VariableSource::Output;
+      v.index = index;
+      v.first = next;
+      v.width = floatsOf(typeOf(g.surface->shader->params[index]));
+      next += v.width;
+      kept = g.variables.insert(g.variables.end(), std::move(v));
+    }
+    g.toldToAir.push_back({index, kept->first, kept->width});
+  }
+}
+
 void warnAboutUnwritten(const FrameOutput& output, const BoundScene& scene) {
   for (size_t i = 0; i < output.variables.size(); ++i) {
     const Variable& v = output.variables[i];
@@ -204,9 +228,11 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
   g.atmosphere = binder_->optional(a.atmosphere, g.object, TM_VOLUME);
   g.interior = binder_->optional(a.interior, g.object, TM_VOLUME);
   g.exterior = binder_->optional(a.exterior, g.object, TM_VOLUME);
-  g.surfaceOverrides = overridesOf(*g.surface, group.primvars, log);
-  if (g.indirectSurface) g.indirectOverrides = overridesOf(*g.indirectSurface, group.primvars, log);
-  if (g.displacement) g.displacementOverrides = overridesOf(*g.displacement, group.primvars, log);
+  for (const BoundShaderPtr& shader :
+       {g.surface, g.indirectSurface, g.displacement, g.atmosphere, g.interior, g.exterior})
+    if (shader && !g.overrides.contains(shader.get()))
+      if (std::vector<Override> found = overridesOf(*shader, group.primvars, log); !found.empty())
+        g.overrides[shader.get()] = std::move(found);
   findPrimvars(g);
   LightList on = a.lights.among(known);
   std::shared_ptr<const LightChoice>& choice = choices_[on];
@@ -217,6 +243,7 @@ BoundGroup BoundScene::bound(const ShadeGroup& group) {
     if (a.irradianceMaxError) g.indirect->maxError = *a.irradianceMaxError;
   }
   g.variables = bindVariables(output_, g);
+  tellAir(g);
   return g;
 }
 

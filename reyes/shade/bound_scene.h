@@ -1,6 +1,8 @@
 // Every bound shader of a scene: the result of ShadingSystem's constructor. Constant while shading.
 #pragma once
 #include <atomic>
+#include <map>
+#include <span>
 
 #include "reyes/shade.h"
 #include "reyes/shade/bound_shader.h"
@@ -57,14 +59,20 @@ struct BoundGroup {
   std::string object;  ///< The object's name in messages.
   BoundShaderPtr surface,
       indirectSurface;  ///< indirectSurface is for rays that hit it (Attribute "indirect" "surface").
-  BoundShaderPtr displacement, atmosphere, interior, exterior;  ///< Each may be null.
-  std::vector<Override> surfaceOverrides, indirectOverrides, displacementOverrides;
+  BoundShaderPtr displacement, atmosphere, interior, exterior;    ///< Each may be null.
+  std::map<const BoundShader*, std::vector<Override>> overrides;  ///< Of each of these shaders that has any.
+  std::span<const Override> overridesOf(const BoundShader& shader) const {
+    const auto it = overrides.find(&shader);
+    return it == overrides.end() ? std::span<const Override>() : it->second;
+  }
   std::vector<Override> displacementOutputs;  ///< Outputs of the displacement, and where points hold them.
   std::shared_ptr<const LightChoice> choice;  ///< Groups that have the same lights share it.
   /// Returns indices in BoundScene::lights. Lights of unknown shaders are left out.
   const LightList& lights() const { return choice->lights(); }
   std::optional<IndirectQuery> indirect;
-  std::vector<BoundVariable> variables;  ///< Indexed as FrameOutput::variables.
+  /// Indexed as FrameOutput::variables. Behind these are outputs that the atmosphere alone wants.
+  std::vector<BoundVariable> variables;
+  std::vector<Override> toldToAir;  ///< Outputs of the surface that the atmosphere names; places are in `variables`.
   /// Returns the surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   /// Returns the volume shader inside or outside of its surfaces; null if there is none.

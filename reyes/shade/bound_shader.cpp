@@ -51,6 +51,12 @@ int BoundShader::output(std::string_view name, ValueType type) const {
   return -1;
 }
 
+int BoundShader::outputNamed(std::string_view name) const {
+  for (int i = 0; i < shader->paramCount; ++i)
+    if (shader->params[i].name == name && isOutput(shader->params[i])) return i;
+  return -1;
+}
+
 int BoundShader::output(TmRole role) const {
   for (int i = 0; i < shader->paramCount; ++i)
     if (isOutput(shader->params[i]) && roleOf(*shader, shader->params[i]) == role) return i;

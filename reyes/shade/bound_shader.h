@@ -28,6 +28,7 @@ struct BoundShader {
   bool can(TmCapability capability) const { return (shader->capabilities & static_cast<uint32_t>(capability)) != 0; }
   /// Returns the index in TmShader::params of the output parameter of that name, or -1.
   int output(std::string_view name, ValueType type) const;
+  int outputNamed(std::string_view name) const;  ///< Of any type.
   /// Returns the index of the output parameter with that role, or -1.
   int output(TmRole role) const;
 

@@ -93,10 +93,11 @@ void repair(Batch& batch, Grid& g, TmConstVec3 P, TmConstVec3 N, bool all) {
 
 }  // namespace
 
-void Batch::setGrid(Grid& g, const BoundShader& shader, const std::vector<Override>& overrides) {
+void Batch::setGrid(Grid& g, const BoundShader& shader) {
   grid = &g;
   const int n = g.vertexCount();
-  setCommon(n, shader, overrides, [&](int offset) { return g.primvar(offset); });
+  setCommon(n, shader);
+  setVariables();
   for (const Override& o : group.displacementOutputs) {
     TmValue& value = params_[static_cast<size_t>(o.param)];
     for (int k = 0; k < o.width; ++k) value.c[k] = g.primvar(o.primvarOffset + k);
@@ -143,7 +144,7 @@ void ShadingSystem::displace(Grid& grid) const {
   ArenaLease arena;
   const ShadeContext context;
   Batch batch(scene, group, context, *arena);
-  batch.setGrid(grid, *group.displacement, group.displacementOverrides);
+  batch.setGrid(grid, *group.displacement);
   const int n = grid.vertexCount();
   const TmVec3 P = (*arena).vec3(n), N = (*arena).vec3(n);
   for (const auto& [to, from] :

@@ -25,11 +25,38 @@ int32_t answerNumbers(Batch& batch, const std::vector<float>& numbers, int32_t* 
   return 1;
 }
 
-/// Finds a parameter of a shader among the values of one run. An output has none unless the shader has ended: what it
-/// begins with, a further parameter of that name in shaders of RSL, is no answer.
-int32_t answerShaderParameter(const BoundShader* shader, const TmValue* values, std::string_view name, int32_t* type,
-                              TmValue* out, bool ended = false) {
+/// Answers with what a shader of RSL has computed as a default.
+int32_t answerComputed(Batch& batch, const TmParamDecl& decl, const RslValue& value, int32_t* type, TmValue* out) {
+  const auto own = static_cast<TmType>(TM_TYPE_OF(decl.type));
+  std::string texts;
+  for (const std::string& text : value.texts) texts.append(text).push_back('\0');
+  batch.answer(value.floats, texts, own, *type, *out);
+  out->length = std::max(1, decl.arrayLength);
+  if (!value.varies) return 1;
+  const auto width = static_cast<size_t>(floatsOf(own));
+  for (size_t k = 1; k < width; ++k) out->c[k] = out->c[0] + k * (value.floats.size() / width);
+  out->step = 1;
+  return 1;
+}
+
+/// Lays an array or matrix that varies out as one of the first active point.
+void takeFirst(Batch& batch, const TmGrid& g, int width, TmValue& value) {
+  int first = 0;
+  while (first + 1 < g.count && !g.active[first]) ++first;
+  const int numbers = value.length * width, components = width == 3 ? 3 : 1;
+  float* const to = batch.arena.floats(numbers);
+  for (int k = 0; k < numbers; ++k) to[k] = value.c[0][static_cast<ptrdiff_t>(k) * g.padded + first];
+  for (int k = 0; k < components; ++k) value.c[k] = to + k;
+  value.step = 0;
+}
+
+/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has none unless the
+/// shader has ended. What it begins with, a further parameter of that name in shaders of RSL, is an answer if the
+/// shader never assigns it.
+int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmGrid& g, std::string_view name,
+                              int32_t* type, TmValue* out, bool ended = false) {
   if (!shader) return 0;
+  const TmValue* const values = g.params;
   if (name == "__shadername") {
     *type = TM_STRING;
     *out = {{nullptr, nullptr, nullptr}, 0, 1, shader->shader->name};
@@ -38,16 +65,27 @@ int32_t answerShaderParameter(const BoundShader* shader, const TmValue* values, 
   for (int i = 0; i < shader->shader->paramCount; ++i) {
     const TmParamDecl& decl = shader->shader->params[i];
     if (decl.name != name) continue;
-    if ((isOutput(decl) && !(ended && values[i].c[0])) || (decl.type & kBeginsOutput) != 0) return 0;
+    if (isOutput(decl) && !(ended && values[i].c[0])) continue;
+    if ((decl.type & kBeginsOutput) != 0) return 0;
+    if (!isOutput(decl) && rslComputesDefault(*shader->shader, i)) {
+      const std::optional<RslValue> value = batch.computed(*shader, i, g);
+      return value ? answerComputed(batch, decl, *value, type, out) : 0;
+    }
     *type = TM_TYPE_OF(decl.type);
     *out = values[i];
+    if (out->step != 0 && (out->length > 1 || *type == TM_MATRIX)) takeFirst(batch, g, floatsOf(*type), *out);
     return 1;
   }
   return 0;
 }
 
-int32_t answerShaderParameter(const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
-  return shader ? answerShaderParameter(shader.get(), shader->values.data(), name, type, out) : 0;
+/// Finds a parameter of another shader of the group, as it is at the points of the batch.
+int32_t answerOther(Batch& batch, const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
+  if (!shader) return 0;
+  const std::vector<TmValue> values = batch.valuesOf(*shader);
+  TmGrid g = batch.tm;
+  g.params = values.data();
+  return answerShaderParameter(batch, shader.get(), g, name, type, out);
 }
 
 /// Finds what the displacement shader has computed at the points. It has run at those that the camera sees alone.
@@ -62,6 +100,27 @@ int32_t answerDisplaced(const Batch& batch, std::string_view name, int32_t* type
     *type = TM_TYPE_OF(decl.type);
     *out = {{}, 1, 1, nullptr};
     for (int k = 0; k < o.width; ++k) out->c[k] = batch.primvar(o.primvarOffset + k);
+    return 1;
+  }
+  return 0;
+}
+
+/// Finds an output of the surface that has run at the points before the atmosphere does. Neighbours have those of their
+/// points.
+int32_t answerSurfaceOutput(Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
+  const int n = batch.points ? batch.points->count() : 0;
+  for (const Override& o : batch.group.toldToAir) {
+    const TmParamDecl& decl = batch.group.surface->shader->params[o.param];
+    if (decl.name != name || batch.ofSurface->variables.size() < static_cast<size_t>(o.primvarOffset + o.width))
+      continue;
+    *type = TM_TYPE_OF(decl.type);
+    *out = {{}, 1, 1, nullptr};
+    for (int k = 0; k < o.width; ++k) {
+      const AlignedVector<float>& from = batch.ofSurface->variables[static_cast<size_t>(o.primvarOffset + k)];
+      float* const to = batch.arena.floats(batch.tm.count);
+      for (int i = 0; i < batch.tm.count; ++i) to[i] = from[static_cast<size_t>(i % n)];
+      out->c[k] = to;
+    }
     return 1;
   }
   return 0;
@@ -116,8 +175,8 @@ int32_t answerRenderer(Batch& batch, std::string_view name, int32_t* type, TmVal
 int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};
-  const bool has[2] = {answerShaderParameter(batch.group.exterior, name, &types[0], &side[0]) != 0,
-                       answerShaderParameter(batch.group.interior, name, &types[1], &side[1]) != 0};
+  const bool has[2] = {answerOther(batch, batch.group.exterior, name, &types[0], &side[0]) != 0,
+                       answerOther(batch, batch.group.interior, name, &types[1], &side[1]) != 0};
   const auto inside = [&](int i) { return (dot(get(g->I, i), get(g->Ng, i)) > 0) == incident; };
   int first = 0;
   while (first + 1 < g->count && !g->active[first]) ++first;
@@ -128,7 +187,7 @@ int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_v
   if (!has[!chosen] || types[0] != types[1] || !side[0].c[0] || side[0].length != 1 || *type == TM_MATRIX) return 1;
   for (int k = 0; k < 3 && side[0].c[k]; ++k) {
     float* values = batch.arena.floats(g->count);
-    for (int i = 0; i < g->count; ++i) values[i] = side[inside(i)].c[k][0];
+    for (int i = 0; i < g->count; ++i) values[i] = side[inside(i)].c[k][i * side[inside(i)].step];
     out->c[k] = values;
   }
   out->step = 1;
@@ -141,22 +200,24 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
   const auto kindIs = [&](TmKind kind) { return batch.own && batch.own->shader->kind == kind; };
   switch (whom) {
     case TM_OF_SURFACE:
-      return kindIs(TM_SURFACE) ? answerShaderParameter(batch.own, batch.tm.params, name, type, out)
-                                : answerShaderParameter(group.surface, name, type, out);
+      if (batch.ofSurface && answerSurfaceOutput(batch, name, type, out)) return 1;
+      return kindIs(TM_SURFACE) ? answerShaderParameter(batch, batch.own, batch.tm, name, type, out)
+                                : answerOther(batch, group.surface, name, type, out);
     case TM_OF_DISPLACEMENT:
-      if (kindIs(TM_DISPLACEMENT)) return answerShaderParameter(batch.own, batch.tm.params, name, type, out);
-      return answerDisplaced(batch, name, type, out) || answerShaderParameter(group.displacement, name, type, out);
+      if (kindIs(TM_DISPLACEMENT)) return answerShaderParameter(batch, batch.own, batch.tm, name, type, out);
+      return answerDisplaced(batch, name, type, out) || answerOther(batch, group.displacement, name, type, out);
     case TM_OF_ATMOSPHERE:
-      return answerShaderParameter(group.atmosphere, name, type, out);
+      return answerOther(batch, group.atmosphere, name, type, out);
     case TM_OF_INCIDENT:
     case TM_OF_OPPOSITE:
       return answerVolume(batch, g, whom == TM_OF_INCIDENT, name, type, out);
     case TM_OF_LIGHT: {
-      if (light < 0) return answerShaderParameter(batch.running, g->params, name, type, out);
+      if (light < 0) return answerShaderParameter(batch, batch.running, *g, name, type, out);
       const LightSample* sample = lightNumbered(batch, light);
-      return sample && sample->params
-                 ? answerShaderParameter(sample->light->bound.get(), sample->params, name, type, out, true)
-                 : 0;
+      if (!sample || !sample->params) return 0;
+      TmGrid lit = *g;
+      lit.params = sample->params;
+      return answerShaderParameter(batch, sample->light->bound.get(), lit, name, type, out, true);
     }
     case TM_OF_ATTRIBUTES:
       return answerAttribute(batch, name, type, out);

@@ -38,8 +38,8 @@ const IndirectQuery* GroupTraits::indirectQuery() const { return group_.indirect
 bool GroupTraits::emits() const { return group_.forDiffuseRays().can(TM_EMITS); }
 
 bool GroupTraits::reflectsEvenly() const {
-  const bool varies = group_.CsOffset >= 0 || group_.OsOffset >= 0 ||
-                      !(group_.indirectSurface ? group_.indirectOverrides : group_.surfaceOverrides).empty();
+  const bool varies =
+      group_.CsOffset >= 0 || group_.OsOffset >= 0 || !group_.overridesOf(group_.forDiffuseRays()).empty();
   return !varies && group_.forDiffuseRays().can(TM_EVEN);
 }
 

@@ -48,7 +48,6 @@ LightTraits ShadingSystem::light(int light) const {
 
 void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
   const BoundGroup& group = impl_->groups[static_cast<size_t>(points.group())];
-  const bool indirectHit = context.kind == RayKind::Diffuse && group.indirectSurface;
   const BoundShader& shader = context.kind == RayKind::Diffuse ? group.forDiffuseRays() : *group.surface;
   const int count = points.count();
   out.resize(count);
@@ -66,7 +65,7 @@ void ShadingSystem::shade(const ShadePoints& points, const ShadeContext& context
     ShadeContext subContext = context;
     subContext.subBatch = begin / kSubBatch;
     Batch batch(*impl_, group, subContext, *arena);
-    batch.setPoints(subBatch, shader, indirectHit ? group.indirectOverrides : group.surfaceOverrides, out, begin);
+    batch.setPoints(subBatch, shader, out, begin);
     batch.openOutputs(variables, out, begin);
     repair(batch, shader, batch.run(shader, batch.tm));
     batch.closeOutputs(variables, out, begin);

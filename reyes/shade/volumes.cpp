@@ -13,7 +13,7 @@ bool run(const BoundScene& scene, const BoundGroup& group, const BoundShader& vo
   const ShaderTimer timer(scene.stats, volume, ends.count());
   ArenaLease arena;
   Batch batch(scene, group, context, *arena);
-  batch.setPoints(ends, volume, {}, out, 0);
+  batch.setPoints(ends, volume, out, 0);
   if (!batch.run(volume, batch.tm)) return false;
   batch.blackOutNonFinite(volume);
   return true;

@@ -7,6 +7,7 @@
 // it.
 #pragma once
 #include "reyes/rsl/machine/program.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shader_api.h"
 
 namespace tomales::compiler {
@@ -23,5 +24,8 @@ void setLoopLimit(int64_t iterations);
 ///   a displacement      those of P and N that it assigns
 ///   a light             those of L and Cl that it assigns
 void run(const Program& program, const TmGrid& grid);
+
+/// Runs the code of a default (defaultOf() in passes/passes.h) of parameter number `parameter`. The grid gets nothing.
+RslValue valueOf(const Program& program, const TmGrid& grid, int32_t parameter);
 
 }  // namespace tomales::compiler

@@ -36,6 +36,8 @@ Code displacementOf(const Code& lowered) {
   Code out = lowered;
   out.kind = ShaderKind::Displacement;
   for (Parameter& p : out.parameters) p.output = false;  // the surface writes them
+  const auto end = out.body.begin() + static_cast<ptrdiff_t>(out.defaults);
+  out.defaults -= static_cast<size_t>(std::count_if(out.body.begin(), end, speaks));
   silence(out.body);
   return out;
 }

@@ -13,6 +13,9 @@ Code displacementOf(const Code& lowered);
 /// Makes it the surface for points that displacementOf() has moved: nobody sees what it assigns to P.
 void leavePoints(Code& lowered);
 
+/// Returns the part of a shader that finds the value of one parameter, by its default or what is given.
+Code defaultOf(const Code& lowered, size_t parameter);
+
 /// Finds for each register whether it varies over the batch, and for each instruction whether all points are active
 /// there. `varying[k]` is true if a primitive variable gives parameter k.
 void inferDetail(Code& code, const std::vector<bool>& varying);

@@ -27,7 +27,10 @@ bool hasEffect(const Instruction& i) {
 
 /// Tells whether the host or the caller sees what the shader leaves in the register.
 bool isSeen(const Code& code, const Register& r) {
-  if (r.origin == Origin::Parameter) return code.parameters[static_cast<size_t>(r.index)].output;
+  if (r.origin == Origin::Parameter) {
+    const Parameter& p = code.parameters[static_cast<size_t>(r.index)];
+    return p.output || p.told;
+  }
   return r.origin == Origin::Global && info(static_cast<Global>(r.index)).writableIn(code.kind);
 }
 

@@ -1,0 +1,86 @@
+// Defaults that a shader computes when it runs: the host may ask for such a value alone.
+#include <algorithm>
+
+#include "reyes/rsl/globals.h"
+#include "reyes/rsl/hosted_shader.h"
+#include "reyes/rsl/machine/machine.h"
+#include "reyes/rsl/passes/passes.h"
+#include "reyes/rsl/passes/walk.h"
+
+namespace tomales::compiler {
+namespace {
+
+/// Tells whether the code gives the same for all points of all scenes.
+bool isFixed(const Code& code) {
+  bool fixed = true;
+  forEach(code.body, [&](const Instruction& i) {
+    const bool step = i.op == Op::StepU || i.op == Op::StepV;
+    fixed &= (info(i.op).pure() && !step) || i.op == Op::Copy || i.op == Op::SetElement || i.op == Op::If;
+    forEachRead(i, [&](int32_t r) { fixed &= code.registers[static_cast<size_t>(r)].origin != Origin::Global; });
+  });
+  return fixed;
+}
+
+/// A grid of one point for code that asks nothing of it but to report.
+struct LonePoint {
+  explicit LonePoint(const TmValue* params) {
+    services.report = [](void*, const TmGrid*, int32_t, const char*) {};
+    grid.structBytes = sizeof grid;
+    grid.count = 1;
+    grid.padded = TM_LANES;
+    grid.active = active;
+    grid.params = params;
+    grid.call = &services;
+  }
+  alignas(64) uint8_t active[TM_LANES] = {1};
+  TmServices services{};
+  TmGrid grid{};
+};
+
+}  // namespace
+
+bool HostedShader::computes(size_t parameter) const {
+  return parameter < lowered_.parameters.size() && lowered_.parameters[parameter].computed;
+}
+
+const Program& HostedShader::defaultProgram(size_t parameter, const TmValue* params) const {
+  std::vector<bool> varying = varyingOf(params);
+  varying.resize(params_.size(), false);
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<const Program>& program = defaults_[{parameter, varying}];
+  if (program) return *program;
+  Messages told;  // dropped, since the whole code has given the same messages
+  Code code = defaultOf(lowered_, parameter);
+  optimise(code, varying, told);
+  program = std::make_unique<Program>(std::move(code));
+  return *program;
+}
+
+RslValue HostedShader::value(size_t parameter, const TmGrid& grid) const {
+  return valueOf(defaultProgram(parameter, grid.params), grid, static_cast<int32_t>(parameter));
+}
+
+std::optional<RslValue> HostedShader::fixedValue(size_t parameter, const TmValue* params) const {
+  const Program& program = defaultProgram(parameter, params);
+  if (!isFixed(program.code())) return std::nullopt;
+  return valueOf(program, LonePoint(params).grid, static_cast<int32_t>(parameter));
+}
+
+}  // namespace tomales::compiler
+
+namespace tomales {
+
+bool rslComputesDefault(const TmShader& shader, int32_t parameter) {
+  const compiler::HostedShader* hosted = compiler::HostedShader::of(shader);
+  return hosted && hosted->computes(static_cast<size_t>(parameter));
+}
+
+RslValue rslValue(const TmShader& shader, int32_t parameter, const TmGrid& grid) {
+  return compiler::HostedShader::of(shader)->value(static_cast<size_t>(parameter), grid);
+}
+
+std::optional<RslValue> rslFixedValue(const TmShader& shader, int32_t parameter, const TmValue* params) {
+  return compiler::HostedShader::of(shader)->fixedValue(static_cast<size_t>(parameter), params);
+}
+
+}  // namespace tomales

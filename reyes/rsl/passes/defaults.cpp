@@ -1,0 +1,55 @@
+// Defaults that a shader computes when it runs. Others may ask for such a value when the shader does not run, or runs
+// elsewhere, so the part of the code that finds it can be run alone.
+#include <algorithm>
+#include <set>
+
+#include "reyes/rsl/passes/passes.h"
+#include "reyes/rsl/passes/walk.h"
+
+namespace tomales::compiler {
+namespace {
+
+/// Calls `visit` for each register that the instruction and those in its blocks write (or read, with `reads`).
+template <class Visit>
+void forEachWithin(const Instruction& i, bool reads, const Visit& visit) {
+  const auto look = [&](const Instruction& inner) {
+    if (reads)
+      forEachRead(inner, visit);
+    else
+      forEachWrite(inner, visit);
+  };
+  look(i);
+  for (const Block& inner : i.blocks) forEach(inner, look);
+}
+
+/// Drops instructions on which the registers do not depend. (removeUnused() does not: each default reads whether its
+/// own parameter is missing.)
+void keepFor(Block& body, std::set<int32_t> needed) {
+  Block kept;
+  for (auto i = body.rbegin(); i != body.rend(); ++i) {
+    bool writes = false;
+    forEachWithin(*i, false, [&](int32_t r) { writes |= needed.contains(r); });
+    if (!writes) continue;
+    forEachWithin(*i, true, [&](int32_t r) { needed.insert(r); });
+    kept.push_back(std::move(*i));
+  }
+  std::reverse(kept.begin(), kept.end());
+  body = std::move(kept);
+}
+
+}  // namespace
+
+Code defaultOf(const Code& lowered, size_t parameter) {
+  Code out = lowered;
+  out.body.erase(out.body.begin() + static_cast<ptrdiff_t>(lowered.defaults), out.body.end());
+  for (Parameter& p : out.parameters) p.output = false;  // nobody takes them
+  out.parameters[parameter].told = true;
+  std::set<int32_t> wanted;
+  for (size_t r = 0; r < out.registers.size(); ++r)
+    if (out.registers[r].origin == Origin::Parameter && out.registers[r].index == static_cast<int32_t>(parameter))
+      wanted.insert(static_cast<int32_t>(r));
+  keepFor(out.body, wanted);
+  return out;
+}
+
+}  // namespace tomales::compiler
