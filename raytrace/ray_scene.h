@@ -52,6 +52,7 @@ struct RayScene::Impl {
   MovingBounds moving;
   mutable std::mutex subsetsMutex;
   mutable std::map<std::pair<std::string, std::string>, std::vector<uint8_t>> subsets;
+  mutable std::map<int, std::vector<uint8_t>> besideLamps;
   mutable std::mutex startsMutex;
   mutable std::map<int, Starts> starts;
   std::vector<float> unseenDisplacement;  ///< Indexed by group: RayScene::unseenDisplacement().

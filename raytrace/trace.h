@@ -22,9 +22,11 @@ namespace tomales {
 struct RayFilter {
   const std::vector<uint8_t>* groups = nullptr;  ///< Indexed by shade group: 1 if the ray sees it; null: it sees all.
   HitSides sides = HitSides::Both;
-  bool passesAll() const { return !groups && sides == HitSides::Both; }
+  const std::vector<uint8_t>* also = nullptr;  ///< As `groups`: the ray sees what is 1 in both.
+  bool passesAll() const { return !groups && !also && sides == HitSides::Both; }
   bool passes(uint32_t group, bool leaving) const {
-    return (!groups || (*groups)[group]) && (sides == HitSides::Both || leaving == (sides == HitSides::Back));
+    return (!groups || (*groups)[group]) && (!also || (*also)[group]) &&
+           (sides == HitSides::Both || leaving == (sides == HitSides::Back));
   }
 };
 
@@ -132,6 +134,8 @@ class RayScene {
   /// none in those of `exclude`. Sets are separated by commas or spaces. Returns null for all groups. The result stays
   /// valid.
   const std::vector<uint8_t>* groupsIn(const std::string& subset, const std::string& exclude) const;
+  /// Returns a list indexed by group: 0 for the geometry of an area light, else 1. It stays valid.
+  const std::vector<uint8_t>* groupsBesideLamp(int light) const;
 
   /// Prepares a ray to leave P: sets its group, level, offset and bias. Its spread and radius must be set already. P
   /// lies on a micropolygon of this group with edges no longer than `edgeLength`; 0: on the true surface. The offset is

@@ -92,4 +92,12 @@ std::vector<vec3> RayScene::transmission(const std::vector<Ray>& rays, const std
   return transmitted;
 }
 
+const std::vector<uint8_t>* RayScene::groupsBesideLamp(int light) const {
+  const std::lock_guard lock(impl_->subsetsMutex);
+  const auto [it, isNew] = impl_->besideLamps.try_emplace(light);
+  if (isNew)
+    for (const ShadeGroup& g : impl_->scene.groups) it->second.push_back(g.attributes->areaLight != light);
+  return &it->second;
+}
+
 }  // namespace tomales

@@ -214,6 +214,7 @@ struct ShadowRays {
   bool solar = false;
   int sample = 0, samples = 1;
   const RayQuery* query = nullptr;  ///< The query of transmission() in a shader; null for lights.
+  int through = -1;                 ///< The geometry of this area light lets the rays pass; -1: of none does.
 };
 
 /// One of several directions that points draw from their lobes: unit vectors.
@@ -242,6 +243,10 @@ class ShadeServices {
   /// geometry.
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
+  /// Takes points all over area light `light` by their area, on the sides that are seen and on others. Where `out.pdf`
+  /// is p, 1 / (pi p) is the share of a point's area in that of the whole, which is 1 on the average; meetPdf is 0.
+  /// Returns false if the light has no geometry.
+  virtual bool sampleWholeEmitter(int, int, const float*, const float*, const EmitterPoints&) const { return false; }
   /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes. Where
   /// nothing is met it writes a pdf of 0, and the rest of `out` is not defined.
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,

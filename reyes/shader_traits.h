@@ -60,6 +60,8 @@ class LightTraits {
 
   /// Returns LightKind::None if its shader is missing, or if it lights nothing diffuse that gather rays see.
   LightKind kind() const;
+  /// Tells whether an area light shines from both sides of its geometry.
+  bool shinesAllRound() const;
   /// Returns null if it is missing.
   const TmShader* shader() const;
   /// Returns the product of those parameters that are factors (isFactor()), where its request gives `params`.

@@ -59,7 +59,8 @@ void traceShadows(const GiState& state, const ShadePoints& points, const uint8_t
   const RayTools* tools = context.purpose == Purpose::Rehearsal ? nullptr : state.rays();
   if (!tools) return;
   const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
-  const RayFilter filter = asked.query ? filterOf(*tools->rays, *asked.query, own) : filterOf(*tools->rays, {}, own);
+  RayFilter filter = asked.query ? filterOf(*tools->rays, *asked.query, own) : filterOf(*tools->rays, {}, own);
+  if (asked.through >= 0) filter.also = tools->rays->groupsBesideLamp(asked.through);
   const ShadowBatch shadows =
       shadowRaysOf(*tools->rays, state.scene, points, active, toward, asked, filter, context, light);
   int64_t adjusted = 0;

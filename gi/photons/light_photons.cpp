@@ -220,12 +220,15 @@ void AreaPhotons::emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out
     std::fill(out.begin(), out.end(), EmittedPhoton{});
     return;
   }
+  const bool allRound = shading_.light(light_).shinesAllRound();
   std::vector<vec3> directions(n);
-  cosineHemispheres(b, directions);
+  std::vector<vec2> onSide(b.begin(), b.end());
+  for (size_t i = 0; allRound && i < n; ++i) onSide[i].x = b[i].x < 0.5f ? 2 * b[i].x : 2 * b[i].x - 1;
+  cosineHemispheres(onSide, directions);
   LightProbe probe;
   for (auto* v : {&probe.P, &probe.N, &probe.Pl, &probe.Nl}) v->reserve(n);
   for (size_t i = 0; i < n; ++i) {
-    const vec3 Nl(N.x[i], N.y[i], N.z[i]), &local = directions[i];
+    const vec3 front(N.x[i], N.y[i], N.z[i]), &local = directions[i], Nl = allRound && b[i].x < 0.5f ? -front : front;
     vec3 tangent, bitangent;
     orthonormalBasis(Nl, tangent, bitangent);
     Ray& ray = out[i].ray;
@@ -241,8 +244,9 @@ void AreaPhotons::emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out
     probe.N.push_back(-ray.direction);
   }
   shading_.probe(light_, probe);
-  // A Lambertian emitter of radiance L sends pi L from each unit of area.
-  for (size_t i = 0; i < n; ++i) out[i].power = probe.Cl[i] * kPi * area[i];
+  // A Lambertian emitter of radiance L sends pi L from each unit of area, and from each side that shines.
+  const float sides = allRound ? 2.0f : 1.0f;
+  for (size_t i = 0; i < n; ++i) out[i].power = probe.Cl[i] * kPi * (sides * area[i]);
 }
 
 }  // namespace tomales

@@ -90,6 +90,7 @@ struct Code {
   int32_t labels = 0;
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
+  bool allRound = false;                         ///< True for a light with illuminate() without a cone.
   uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/passes.h).
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };

@@ -56,6 +56,11 @@ bool isMean(const TmShader& light) {
   return shader && shader->lowered().onGeometry;
 }
 
+bool shinesAllRound(const TmShader& light) {
+  const HostedShader* shader = HostedShader::of(light);
+  return shader && shader->lowered().onGeometry && shader->lowered().allRound;
+}
+
 std::vector<std::string> rslTexts(const TmShader& shader) {
   std::vector<std::string> out;
   if (const HostedShader* hosted = HostedShader::of(shader))

@@ -99,6 +99,7 @@ void Lowering::illuminate(const Stmt& s) {
   if (cone && shinesFromMany_)
     direction = compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
   copy(L, direction);
+  code_.allRound |= !cone;
   if (!cone) return statement(*s.body[0]);
   const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
   const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {ray}), axis});

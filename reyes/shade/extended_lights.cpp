@@ -15,6 +15,8 @@ constexpr float kWorthOfSkySample = 0.25f;
 
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
+bool canBeMet(const BoundLight& light) { return hasExtent(light) && !shinesAllRound(*light.bound->shader); }
+
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   const int n = g.count;
   const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
@@ -26,8 +28,12 @@ EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
 }
 
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
-  if (!batch.scene.services) return false;
-  if (!batch.scene.services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)) return false;
+  const ShadeServices* services = batch.scene.services;
+  if (!services) return false;
+  if (shinesAllRound(*light.bound->shader)
+          ? !services->sampleWholeEmitter(light.index, g.count, g.xi0, g.xi1, points)
+          : !services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points))
+    return false;
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
   return true;
 }
@@ -47,7 +53,8 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   }
   const bool ran = batch.run(*light.bound, g);
   g.L = asked;
-  if (ran && isMean(*light.bound->shader)) meanToRadiance(g, batch.scene.services, light.index);
+  const TmShader& shader = *light.bound->shader;
+  if (ran && isMean(shader) && !shinesAllRound(shader)) meanToRadiance(g, batch.scene.services, light.index);
   return ran;
 }
 

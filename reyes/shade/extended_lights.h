@@ -17,14 +17,17 @@ struct LobeDirections {
 };
 
 bool hasExtent(const BoundLight& light);
+/// Tells whether directions find it. The own samples of lights that shine all round are all their light.
+bool canBeMet(const BoundLight& light);
 
 /// Makes room for the points on the emitter, which the grid then shows the shader.
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);
-/// Takes points on the emitter by the grid's random numbers. Returns false if the light has no geometry.
+/// Takes points on the emitter by the grid's random numbers. Returns false if the light has no geometry. Of a light
+/// that shines all round, they are on all of it, and weights make Cl the mean over the area (sampleWholeEmitter()).
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
 /// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
-/// false if nothing can be met.
+/// false if nothing can be met. Pre: canBeMet().
 bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
                const EmitterPoints& points);
 

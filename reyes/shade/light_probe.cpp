@@ -40,7 +40,8 @@ void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec
   LightProbe seen;
   std::vector<size_t> front;
   for (int i = 0; i < points.count(); ++i) {
-    const vec3 P = points.position(i), I = points.get3(kIx, i), N = points.get3(kNgx, i);
+    const vec3 P = points.position(i), I = points.get3(kIx, i), outside = points.get3(kNgx, i),
+               N = shinesAllRound(*light->bound->shader) && dot(I, outside) > 0 ? -outside : outside;
     if (dot(I, N) >= 0) continue;
     front.push_back(static_cast<size_t>(i));
     seen.P.push_back(P - I);

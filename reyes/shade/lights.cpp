@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/illuminate.h"
 #include "reyes/shade/light_runs.h"
@@ -150,8 +151,10 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     LightSample sample = sampleOf(batch, light, g, {light.can(TM_LIGHT_SOLAR), s, n}, s);
     sample.pdf = points.meetPdf;
     sample.tally = tally;
+    const bool allRound = area && shinesAllRound(*light.bound->shader);
+    if (allRound) sample.rays.through = light.index;
     if (light.shadows && batch.scene.services) {
-      if (area) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
+      if (area && !allRound) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
       sample.pending = batch.arena.bytes(g.count);
       std::copy_n(g.active, g.count, sample.pending);
     }
@@ -163,7 +166,7 @@ template <class Body>
 void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
   for (const int index : alone(batch))
     if (const BoundLight& light = batch.scene.light(index);
-        hasExtent(light) && !light.nonspecular && applies(light, batch) && (!group_ || light.group == *group_))
+        canBeMet(light) && !light.nonspecular && applies(light, batch) && (!group_ || light.group == *group_))
       body(light);
 }
 
@@ -172,7 +175,7 @@ void Lights::forEachSetWithExtent(Batch& batch, const Body& body) const {
   const LightSets* sets = setsOf(batch);
   for (size_t k = 0; sets && k < sets->sets.size(); ++k)
     if (const BoundLight& first = *sets->sets[k].set->lights[0];
-        hasExtent(first) && !first.nonspecular && applies(first, batch))
+        canBeMet(first) && !first.nonspecular && applies(first, batch))
       body(sets->sets[k]);
 }
 

@@ -65,6 +65,8 @@ LightKind LightTraits::kind() const {
   return LightKind::Point;
 }
 
+bool LightTraits::shinesAllRound() const { return light_ && tomales::shinesAllRound(*light_->bound->shader); }
+
 const TmShader* LightTraits::shader() const { return light_ ? light_->bound->shader : nullptr; }
 
 vec3 LightTraits::factor(const std::vector<Param>& params) const {

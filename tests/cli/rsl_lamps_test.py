@@ -1,5 +1,6 @@
 """Tests light shaders in RSL with an extent: over the geometry of AreaLightSource (RISpec 3.2, sections 4.6 and 12.2), and by solar() over the whole
 sky. Last, it tests indirectdiffuse() beside the light that --gi adds."""
+import math
 import pathlib
 import sys
 
@@ -72,6 +73,22 @@ t.write("normals.sl", 'light normals() { normal n = ntransform("world", normaliz
 
 even = render("even", lamp("even"))
 expect("even", even, lambda px, py, square: 2 / square, "is the mean of lights all over the lamp")
+expect("even_back", render("even_back", lamp("even", points=UP)), lambda px, py, square: 2 / square, "from both sides, as illuminate() names no cone")
+# The mean of cosine / distance^2 over a sphere is that of its centre (Newton's shell theorem), whichever half of it is seen.
+ball_lamp = '''AttributeBegin Attribute "visibility" "int camera" [0] AreaLightSource "even" 1 "float __samples" [256]
+Translate 0 0 -1.5 %sSphere .5 -.5 .5 360 AttributeEnd Illuminate 1 1 ShadingRate .02'''
+at = [2 * (k + 0.5) / SIZE - 1 for k in range(SIZE)]
+for name, turn in (("ball", ""), ("ball_inside_out", "ReverseOrientation ")):
+    ball = render(name, ball_lamp % turn)
+    shares = [ball[x, y][0] / (2 * 1.5 / (at[x] ** 2 + at[y] ** 2 + 1.5 ** 2) ** 1.5) for x in range(SIZE) for y in range(SIZE)]
+    mean, off = sum(shares) / len(shares), max(abs(share - 1) for share in shares)
+    t.expect(abs(mean - 1) < 0.005 and off < 0.02, f"  {name}: all of a sphere shines, and hides none of it ({mean:.4f} of it, off by {off:.3f})")
+two = render("two", (ball_lamp % "") + ''' AttributeBegin Surface "constant" Attribute "visibility" "int camera" [0]
+ Patch "bilinear" "P" [-9 9 -1.5 9 9 -1.5 -9 -9 -1.5 9 -9 -1.5] AttributeEnd''')
+ways = [(2 * math.pi * (j + .5) / 64, (i + .5) / 64) for i in range(64) for j in range(64)]
+near = [(.5 * math.sqrt(1 - z * z) * math.cos(a), .5 * math.sqrt(1 - z * z) * math.sin(a), 1.5 - .5 * z) for a, z in ways]
+half = sum(z / ((x - at[4]) ** 2 + (y - at[4]) ** 2 + z * z) ** 1.5 for x, y, z in near) / len(near)
+t.expect(abs(two[4, 4][0] / half - 1) < 0.05, f"  what stands in it hides the far half ({two[4, 4][0]:.3f} of {half:.3f})")
 expect("downward", render("downward", lamp("downward")), lambda px, py, square: 1.5 / square ** 1.5, "with the cosine at the lamp, by N")
 t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP), 0, "comes to nothing").values()) == 0, "  whose other side looks away")
 expect("half", render("half", lamp("half", '"float __samples" [256]')), lambda px, py, square: float(px > 0), "P tells where on the lamp, in any space", 0.08)
