@@ -46,6 +46,8 @@ class ShadingSystem {
   /// then add up. Call it before anything is shaded.
   void runAllLights();
   void setClouds(CloudServices* clouds);
+  /// Lets shaders print nothing from now on.
+  void silence();
 
   /// Binds the groups that Scene::add() has added. One thread at a time; others may use the older groups meanwhile.
   void bindNewGroups();

@@ -97,6 +97,7 @@ struct BoundScene {
   Stats& stats;
   const ShadeServices* services = nullptr;
   CloudServices* clouds = nullptr;
+  bool silent = false;  ///< What shaders print is dropped.
   Camera camera;
   mat4 cameraFromWorld;
   int lightCut;             ///< Option "trace" "lightcut": how many of many lights a point runs; 0: all.

@@ -113,8 +113,8 @@ void report(void* host, const TmGrid*, int32_t severity, const char* message) {
 }
 
 void print(void* host, const TmGrid*, const char* text) {
-  const ShadeContext& context = batchOf(host).context;
-  if (context.purpose != Purpose::Picture) return;
+  const Batch& batch = batchOf(host);
+  if (batch.context.purpose != Purpose::Picture || batch.scene.silent) return;
   std::string line = text;
   if (!line.ends_with('\n')) line += '\n';
   std::fputs(line.c_str(), stderr);

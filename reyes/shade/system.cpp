@@ -36,6 +36,8 @@ void ShadingSystem::runAllLights() { impl_->lightCut = 0; }
 
 void ShadingSystem::setClouds(CloudServices* clouds) { impl_->clouds = clouds; }
 
+void ShadingSystem::silence() { impl_->silent = true; }
+
 void ShadingSystem::bindNewGroups() { impl_->bindNewGroups(); }
 
 void ShadingSystem::takeFoundPortals() { impl_->takeFoundPortals(); }

@@ -24,6 +24,10 @@ t.expect(0 < figure(bump, "longest displacement")[0] <= 0.1, "stays within its K
 t.expect("displacement-bound" not in bump.stderr, "needs no bound of a scene that the user has not written")
 for wrong in ("Km=abc", "Km=1,2", "Km=", "Km=1x"):
     t.expect_run(f"a value that does not suit, {wrong},", ["shadetest", "noisybump", wrong], 3, '"Km" takes 1 number, and not', "shadetest-parameter")
+for kind, body in (("surface", ""), ("volume", ""), ("displacement", ""), ("light", "solar(vector(0, 0, 1), 0) Cl = 1;")):
+    t.write("says.sl", f'{kind} says() {{ printf("here\\n"); {body} }}\n')
+    lines = t.expect_run(f"a {kind} that prints", ["shadetest", "says.sl", "--grid", "3x3"], 0).stderr.count("here")
+    t.expect(lines == 9, f"does so once a point, however often it is timed ({lines} lines)")
 fog = t.expect_run("a volume lies before a lit square", ["shadetest", "fog", "--grid", "3x3"], 0)
 plain = t.expect_run("which is as bright as", ["shadetest", "matte", "--grid", "3x3"], 0)
 t.expect(abs(figure(fog, "Ci greatest")[0] / figure(plain, "Ci greatest")[0] - 2.718281828 ** -5) < 1e-4, "without five units of fog")
