@@ -13,6 +13,7 @@ Camera::Camera(const Options& o)
   // FrameAspectRatio).
   const vec2 display(xResolution_, yResolution_);
   const float displayAspect = display.x * o.pixelAspect / display.y, aspect = o.frameAspect.value_or(displayAspect);
+  frameAspect_ = aspect;
   const float x = display.x * std::min(aspect / displayAspect, 1.0f),
               y = display.y * std::min(displayAspect / aspect, 1.0f);
   // fov spans the smaller image dimension: screen space is +-1 along it (RISpec 3.2 section 4.1.2).
@@ -33,10 +34,10 @@ Camera::Camera(const Options& o)
     const float e = std::ceil(static_cast<float>(resolution) * fraction + shift);
     return std::clamp(static_cast<int>(e), 0, resolution - 1);
   };
-  const int columns = std::max(1, static_cast<int>(std::lround(x))),
-            rows = std::max(1, static_cast<int>(std::lround(y)));
-  crop_ = {edge(o.cropWindow[0], 0, columns), edge(o.cropWindow[2], 0, rows), edge(o.cropWindow[1], -1, columns) + 1,
-           edge(o.cropWindow[3], -1, rows) + 1};
+  columns_ = std::max(1, static_cast<int>(std::lround(x)));
+  rows_ = std::max(1, static_cast<int>(std::lround(y)));
+  crop_ = {edge(o.cropWindow[0], 0, columns_), edge(o.cropWindow[2], 0, rows_), edge(o.cropWindow[1], -1, columns_) + 1,
+           edge(o.cropWindow[3], -1, rows_) + 1};
 }
 
 bool Camera::rasterBound(const Bound3& b, Bound2& out) const {

@@ -14,6 +14,10 @@ class Camera {
 
   int xResolution() const { return xResolution_; }
   int yResolution() const { return yResolution_; }
+  /// The size of the picture, which FrameAspectRatio may make smaller than the format.
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  float frameAspect() const { return frameAspect_; }
   /// Returns the pixels of CropWindow (RISpec: abutting windows tile exactly).
   PixelRect crop() const { return crop_; }
   bool perspective() const { return perspective_; }
@@ -80,6 +84,8 @@ class Camera {
   float near_, far_;
   vec2 scale_, offset_;  ///< raster = offset + scale * (x, y) [/ z]
   float pixelSizeAtUnit_;
+  float frameAspect_ = 1;
+  int columns_ = 1, rows_ = 1;
   vec2 lens_{0};  ///< Raster shift at the lens's rim for one unit of depth key; 0 for a pinhole.
   float focusKey_ = 0;
   PixelRect crop_;

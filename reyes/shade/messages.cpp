@@ -141,6 +141,11 @@ int32_t answerOption(Batch& batch, std::string_view name, int32_t* type, TmValue
   const auto numbers = [&](const std::vector<float>& n) { return answerNumbers(batch, n, type, out); };
   if (name == "Format")
     return numbers({static_cast<float>(o.xResolution), static_cast<float>(o.yResolution), o.pixelAspect});
+  const Camera& camera = batch.scene.camera;
+  if (name == "DeviceResolution")
+    return numbers({static_cast<float>(camera.columns()), static_cast<float>(camera.rows()), o.pixelAspect});
+  if (name == "FrameAspectRatio") return numbers({camera.frameAspect()});
+  if (name == "DepthOfField") return numbers({o.fStop, o.focalLength, o.focalDistance});
   if (name == "Shutter") return numbers({o.shutterOpen, o.shutterClose});
   if (name == "Clipping") return numbers({o.nearClip, o.farClip});
   if (name == "CropWindow") return numbers({o.cropWindow.begin(), o.cropWindow.end()});

@@ -1,4 +1,4 @@
-"""Tests what shaders are told of each other (RISpec 3.2, section 15.8), and what primitive variables tell volumes."""
+"""Tests what shaders are told of each other (RISpec 3.2, section 15.8), of options, and what primitive variables tell volumes."""
 import pathlib
 import sys
 
@@ -81,5 +81,19 @@ expect("before", shown("before", 'LightSource "lamp" 1 "which" [6] Surface "lit"
 t.write("vp.sl", "volume vp(varying float q = .125; float twice = 2 * q) { Ci = color(q, twice, 0); Oi = 1; }\n")
 for kind, values, wanted in (("constant", ".5", lambda s: (.5, 1, 0)), ("varying", "0 1 0 1", lambda s: (s, 2 * s, 0))):
     expect("vp", shown("vp", 'Surface "constant" Atmosphere "vp"', f'"{kind} float q" [{values}]'), wanted, f"{kind} float for a parameter of the atmosphere", 0.04)
+
+# Options (RISpec 3.2, table 15.5). FrameAspectRatio 2 leaves the upper half of the format.
+t.write("opts.sl", """surface opts() {
+  float f[3] = {0, 0, 0}, d[3] = {0, 0, 0}, l[3] = {0, 0, 0}, c[4] = {0, 0, 0, 0}, s2[2] = {0, 0}, n[2] = {0, 0}, a = 0;
+  float r = option("Format", f) + option("DeviceResolution", d) + option("DepthOfField", l) + option("CropWindow", c) + option("Shutter", s2)
+    + option("Clipping", n) + option("FrameAspectRatio", a);
+  if (u < .3 && v < .3) printf("%f: %f %f %f, %f %f %f, %f %f %f, %f %f %f %f, %f %f, %f %f, %f\\n", r, f[0], f[1], f[2], d[0], d[1], d[2], l[0], l[1], l[2],
+    c[0], c[1], c[2], c[3], s2[0], s2[1], n[0], n[1], a);
+  Ci = 1; Oi = 1; }
+""")
+WHOLE = "7.000000: 4.000000 4.000000 1.000000, 4.000000 {rows}.000000 1.000000, 2.800000 .500000 3.000000, 0.000000 1.000000 0.000000 1.000000, 0.000000 1.000000, .500000 100.000000, {aspect}.000000"
+LENS = "DepthOfField 2.8 .5 3 Shutter 0 1 Clipping .5 100"
+for before, rows, aspect in (("", 4, 1), ("FrameAspectRatio 2", 2, 2)):
+    shown("opts", 'Surface "opts"', before=f"{before} {LENS}", says=(WHOLE.format(rows=rows, aspect=aspect).replace(" .", " 0."),))
 
 t.finish()
