@@ -10,8 +10,9 @@
 
 namespace tomales {
 
-/// Added to the type of a parameter that is an array: primitive variables of the same name and length override it.
-/// TmValue::step is 1 then, and element e of component k of point i is c[k][e * components * padded + i].
+/// Added to the type of a parameter that is an array or a matrix: primitive variables of the same name and length
+/// override it. TmValue::step is 1 then, and element e of component k of point i is c[k][e * components * padded + i].
+/// Component k of a matrix is c[0][(e * 16 + k) * padded + i].
 constexpr int32_t kArrayVaries = 0x10000;
 
 /// The samples of a light with an extent, such as an area, that does not say how many it wants. Lights in RSL declare

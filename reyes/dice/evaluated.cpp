@@ -8,7 +8,24 @@ mat3 normalMatrix(const Object& o, const mat4& m) {
   return o.flipsNormal ? -cofactor : cofactor;
 }
 
+namespace {
+
+/// Lets the matrix lead to where `m` leads.
+void transformMatrices(const Primvar& p, const mat4& m, int n, float* values, int stride) {
+  for (int first = 0; first + 15 < p.width; first += 16)
+    for (int i = 0; i < n; ++i) {
+      float* const x = values + first * stride + i;
+      mat4 own;
+      for (int k = 0; k < 16; ++k) own[k / 4][k % 4] = x[k * stride];
+      own = m * own;
+      for (int k = 0; k < 16; ++k) x[k * stride] = own[k / 4][k % 4];
+    }
+}
+
+}  // namespace
+
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride) {
+  if (p.type == ValueType::Matrix) return transformMatrices(p, m, n, values, stride);
   const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector,
              normal = p.type == ValueType::Normal;
   if (!point && !vector && !normal) return;

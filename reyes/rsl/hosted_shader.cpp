@@ -33,7 +33,7 @@ int32_t typeOf(const Parameter& p) {
                                        TM_VECTOR, TM_NORMAL, TM_MATRIX, TM_STRING};
   int32_t type = kTypes[static_cast<size_t>(p.type.base)];
   if (p.output) type |= TM_OUTPUT;
-  if (p.type.isArray()) type |= kArrayVaries;
+  if (p.type.isArray() || p.type.is(Base::Matrix)) type |= kArrayVaries;
   if (p.beginsOutput) type |= kBeginsOutput;
   return type;
 }

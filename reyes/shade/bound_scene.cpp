@@ -19,7 +19,8 @@ std::vector<Override> overridesOf(const BoundShader& bound, const std::vector<Pr
     const TmParamDecl& decl = bound.shader->params[i];
     if (isOutput(decl)) continue;
     const int length = std::max(1, decl.arrayLength), width = length * floatsOf(typeOf(decl));
-    const bool overridable = typeOf(decl) <= TM_NORMAL && (length == 1 || (decl.type & kArrayVaries) != 0);
+    const bool overridable =
+        (typeOf(decl) <= TM_NORMAL && length == 1) || (typeOf(decl) != TM_STRING && (decl.type & kArrayVaries) != 0);
     int offset = 0;
     for (const Primvar& p : primvars) {
       const bool same = overridable && p.name == decl.name && p.width == width;

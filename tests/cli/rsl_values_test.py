@@ -101,6 +101,15 @@ t.write("rough.sl", "displacement rough(float heights[2] = {9, 9}) { P += (heigh
 expect("rough", f'Attribute "displacementbound" "sphere" [2] Displacement "rough" Surface "rough2" {PATCH} "varying float[2] heights" [0 1 .5 1 0 1 .5 1]',
        lambda x, y: (4 + (1 + x) / 4,) * 3, "varying float[2] of a displacement")
 
+# A matrix leads from the object's space, whose origin is 3 before the camera, as one of the request leads from the shader's.
+t.write("led.sl", "surface led(matrix mm = 0) { Oi = 1; Ci = color(comp(mm, 3, 0), comp(mm, 3, 1), comp(mm, 3, 2)); }\n")
+MOVED = "[1 0 0 0 0 1 0 0 0 0 1 0 %s 2 3 1]"
+expect("led", f'Surface "led" "matrix mm" {MOVED % 1} {PATCH}', lambda x, y: (1, 2, 6), "a matrix of the request")
+for kind in ("constant", "uniform"):
+    expect("led", f'Surface "led" {PATCH} "{kind} matrix mm" {MOVED % 1}', lambda x, y: (1, 2, 6), f"{kind} matrix")
+expect("led", f'Surface "led" {faces} "uniform matrix mm" [{(MOVED % 1).strip("[]")} {(MOVED % 5).strip("[]")}]', lambda x, y: (1 if x < 0 else 5, 2, 6),
+       "uniform matrix of each face")
+
 # Defaults are in named spaces. The shader's own space is turned by 90 degrees about z and at 5 0 0 of the world, whose origin is 3 before the camera.
 t.write("spaces.sl", """surface spaces(uniform point p = point SPACE (1, 2, 3); vector d = vector SPACE (1, 2, 3); normal n = normal SPACE (1, 2, 3);
   matrix m = matrix SPACE 1; float which = 0) {

@@ -116,14 +116,15 @@ void take(Run& run, int32_t r, const Source& s) {
   }
 }
 
-/// Takes an array whose elements vary (kArrayVaries).
+/// Takes an array or a matrix that varies (kArrayVaries).
 void takeArray(Run& run, int32_t r, const TmValue& v) {
   const Register& reg = run.reg(r);
   const int32_t width = floatsOf(reg);
   for (int32_t e = 0; e < std::min(elementsOf(reg), v.length); ++e)
     for (int32_t c = 0; c < width; ++c)
-      std::copy_n(v.c[c] + static_cast<ptrdiff_t>(e * width) * run.padded, run.padded,
-                  run.lane(r).data + (e * width + c) * static_cast<ptrdiff_t>(run.stride(r)));
+      std::copy_n((width == 3 ? v.c[c] : v.c[0] + static_cast<ptrdiff_t>(c) * run.padded) +
+                      static_cast<ptrdiff_t>(e * width) * run.padded,
+                  run.padded, run.lane(r).data + (e * width + c) * static_cast<ptrdiff_t>(run.stride(r)));
 }
 
 /// Takes arrays and matrices: element e of component k is c[k][e * components].
@@ -160,7 +161,7 @@ void takeParameter(Run& run, int32_t r) {
   const TmValue& v = run.given.params[reg.index];
   if (reg.shape == Shape::Text) return takeTexts(run, r, p, v);
   if (p.output) return run.program.located(r).opens ? takeDefault(run, r, p) : void();
-  if (reg.length > 0 && v.step != 0) return takeArray(run, r, v);
+  if ((reg.length > 0 || reg.shape == Shape::Matrix) && v.step != 0) return takeArray(run, r, v);
   if (reg.length > 0 || reg.shape == Shape::Matrix) return takeSame(run, r, v);
   take(run, r, {{v.c[0], v.c[1], v.c[2]}, v.step == 0});
 }

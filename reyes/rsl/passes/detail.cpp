@@ -21,7 +21,7 @@ class Inference {
       if (r.origin == Origin::Global) r.varying = !info(static_cast<Global>(r.index)).uniform;
       if (r.origin == Origin::Parameter) {
         const auto k = static_cast<size_t>(r.index);
-        r.varying = r.shape != Shape::Text && r.shape != Shape::Matrix && k < varying.size() && varying[k];
+        r.varying = r.shape != Shape::Text && k < varying.size() && varying[k];
         if (code_.parameters[k].output) r.varying = true;
       }
     }
