@@ -6,6 +6,7 @@
 
 #include "reyes/base/near_names.h"
 #include "reyes/computed_default.h"
+#include "reyes/rsl_host.h"
 #include "reyes/shade/parameter_values.h"
 #include "reyes/shade/roles.h"
 #include "reyes/shader_registry.h"
@@ -118,6 +119,7 @@ class Binding {
     bound_.values.resize(n + 1);
     bound_.values[n] = {{nullptr, nullptr, nullptr}, 1, 1, nullptr};  // null, so that a shader that reads it crashes
     for (size_t i = 0; i < n; ++i) bindDeclared(shader.params[i], i);
+    for (Role& r : roles_) bindRole(r);
     if (!call_) return;
     const std::span<const TmParamDecl> standard = standardParams(static_cast<TmKind>(shader.kind));
     for (const TmParamDecl& decl : standard) bindStandard(decl);
@@ -151,15 +153,8 @@ class Binding {
       return;
     }
     ParameterValue parameter = valueOf(decl, param);
-    if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE) {
-      if (!isMark(parameter))
-        bound_.roleValues.push_back(roleValue(role, decl.name, true, param != nullptr, parameter));
-      else
-        warn("light-value", decl.name,
-             fmt::format("the shader computes the default of \"{}\" when it runs, which the renderer cannot know; it "
-                         "takes its own default",
-                         decl.name));
-    }
+    if (const TmRole role = roleOf(*bound_.shader, decl); role != TM_ROLE_NONE)
+      roles_.push_back({role, i, param != nullptr, parameter});
     if (typeOf(decl) == TM_STRING) {
       for (const std::string& s : parameter.strings) bound_.strings[i].append(s).push_back('\0');
       value.string = bound_.strings[i].c_str();
@@ -168,6 +163,31 @@ class Binding {
     bound_.floats[i] = std::move(parameter.floats);
     toCurrent(typeOf(decl), bound_.currentFromShader, bound_.floats[i]);
     for (size_t k = 0; k < std::min<size_t>(bound_.floats[i].size(), 3); ++k) value.c[k] = bound_.floats[i].data() + k;
+  }
+
+  struct Role {
+    TmRole role;
+    size_t index;
+    bool given;
+    ParameterValue value;
+  };
+
+  /// Notes a value that the renderer wants to know. One that the shader computes is known if it is always the same.
+  void bindRole(Role& r) {
+    const TmShader& shader = *bound_.shader;
+    const TmParamDecl& decl = shader.params[r.index];
+    const auto index = static_cast<int32_t>(r.index);
+    if (isMark(r.value) && rslComputesDefault(shader, index)) {
+      std::optional<RslValue> fixed = rslFixedValue(shader, index, bound_.values.data());
+      if (fixed) r.value = {std::move(fixed->floats), std::move(fixed->texts), ""};
+    }
+    if (!isMark(r.value))
+      bound_.roleValues.push_back(roleValue(r.role, decl.name, true, r.given, r.value));
+    else if (bound_.output(r.role) < 0)  // else it is taken point by point
+      warn("light-value", decl.name,
+           fmt::format("the shader computes the default of \"{}\" when it runs, which the renderer cannot know; it "
+                       "takes its own default",
+                       decl.name));
   }
 
   void bindStandard(const TmParamDecl& decl) {
@@ -200,6 +220,7 @@ class Binding {
   BoundShader& bound_;
   const ShaderCall* call_;
   Log& log_;
+  std::vector<Role> roles_;  ///< Those of the shader's own parameters, in their order.
 };
 
 }  // namespace

@@ -96,4 +96,13 @@ LENS = "DepthOfField 2.8 .5 3 Shutter 0 1 Clipping .5 100"
 for before, rows, aspect in (("", 4, 1), ("FrameAspectRatio 2", 2, 2)):
     shown("opts", 'Surface "opts"', before=f"{before} {LENS}", says=(WHOLE.format(rows=rows, aspect=aspect).replace(" .", " 0."),))
 
+# What a light computes for the renderer is known if it is the same everywhere, or an output.
+t.write("roles.sl", 'light roles(float nd = 0; string first = "a"; uniform float __nondiffuse = nd; string __category = concat(first, ",b"))'
+        ' { solar(vector "camera" (0, 0, 1), 0) { Cl = 1; } }\n'
+        'light puts(float nd = 0; output float __nondiffuse = nd) { solar(vector "camera" (0, 0, 1), 0) { Cl = 1; } }\n'
+        'light unknown(uniform float __nondiffuse = step(2, time)) { solar(vector "camera" (0, 0, 1), 0) { Cl = 1; } }\n')
+t.write("by.sl", 'surface by() { Ci = color(comp(diffuse(N), 0), 0, 0); illuminance("b", P) { Ci += color(0, 1, 0); } Oi = 1; }\n')
+for light, says, wanted in (('"roles" 1', (), (1, 1, 0)), ('"roles" 1 "nd" [1]', (), (0, 1, 0)), ('"roles" 1 "first" ["c"]', (), (1, 1, 0)), ('"puts" 1 "nd" [1]', (), (0, 0, 0)),
+                            ('"puts" 1', (), (1, 0, 0)), ('"unknown" 1', ("light-value", '"__nondiffuse"'), (1, 0, 0))):
+    expect("roles", shown("roles", f'LightSource {light} Surface "by"', says=says), lambda s: wanted, f"LightSource {light}")
 t.finish()

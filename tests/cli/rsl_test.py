@@ -122,7 +122,7 @@ t.write("part.sl", "surface part(float n = 2; float k[3] = {n, n, n}) { Oi = 1; 
 scene("part", 'Surface "part" "k" [1]')
 render("the first element of an array alone", "part", 0, "takes 3 numbers and was given 1")
 expect_all("part", (.25, .5, .5), "leaves the others their computed default")
-t.write("derived.sl", 'light derived(float n = 0; float __nondiffuse = n, __samples = 2 * n; string __category = "a") { solar(vector "shader" (0, 0, 1), 0) Cl = 1 + __nondiffuse * 0; }\n')
+t.write("derived.sl", 'light derived(float n = 0; float __nondiffuse = time * n, __samples = 2 * n; string __category = "a") { solar(vector "shader" (0, 0, 1), 0) Cl = 1 + __nondiffuse * 0; }\n')
 scene("derived", 'LightSource "derived" 1 Surface "matte" "Ka" 0')
 render("a parameter for the renderer whose default the shader computes", "derived", 0, "light-value", '"__nondiffuse"')
 t.expect(all(c[0] > .9 for c in picture("derived").values()), "leaves the renderer its own default")
