@@ -17,10 +17,11 @@ bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance) {
   return a.leaving == b.leaving && std::abs(a.t - b.t) <= distance;
 }
 
-bool facesOfOneSheet(const PolygonHit& a, const PolygonHit& b, float rounding) {
+bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, float rounding) {
   constexpr float kParallel = 0.9999f;  // The cosine of 0.8 degrees: both may be tessellated differently.
-  if (a.leaving == b.leaving || a.instance != b.instance || !(std::abs(a.t - b.t) <= rounding)) return false;
-  return std::abs(dot(a.normal, b.normal)) > kParallel * glm::length(a.normal) * glm::length(b.normal);
+  const bool isHere = std::abs(from.t) <= rounding && std::abs(hit.t - from.t) <= rounding;
+  if (!isHere || from.leaving == hit.leaving || from.instance != hit.instance) return false;
+  return std::abs(dot(from.normal, hit.normal)) > kParallel * glm::length(from.normal) * glm::length(hit.normal);
 }
 
 int effectiveOrigin(const HitList& sorted, const RayStart& start) {
@@ -43,7 +44,7 @@ bool isCrowded(const HitList& sorted, int origin, const RayStart& start) {
   const PolygonHit& from = sorted[static_cast<size_t>(origin)];
   return std::any_of(sorted.begin(), sorted.end(), [&](const PolygonHit& hit) {
     return std::abs(hit.t) <= start.offset && hit.group == from.group && hit.leaving != from.leaving &&
-           !facesOfOneSheet(from, hit, start.rounding);
+           !isOtherFace(from, hit, start.rounding);
   });
 }
 
@@ -52,7 +53,7 @@ int nextHit(const HitList& sorted, int origin, const RayStart& start) {
     if (origin < 0) return hit.t > 0;
     const PolygonHit& from = sorted[static_cast<size_t>(origin)];
     return hit.t >= from.t - start.rounding && !sameSurface(from, hit, mergeDistance(start.offset)) &&
-           !facesOfOneSheet(from, hit, start.rounding);
+           !isOtherFace(from, hit, start.rounding);
   };
   const auto next = std::find_if(sorted.begin(), sorted.end(), follows);
   return next == sorted.end() ? -1 : static_cast<int>(next - sorted.begin());

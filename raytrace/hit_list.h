@@ -45,10 +45,10 @@ void sortAlongRay(HitList& list);
 /// sense are one surface. The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
-/// Tells whether two hits, no farther apart than `rounding`, are the two faces of one sheet: polygons in the same place
-/// that face apart. A scene gives the sides of a surface different shaders by two such polygons with Sides 1. Polygons
-/// of different instances are never taken for one.
-bool facesOfOneSheet(const PolygonHit& a, const PolygonHit& b, float rounding);
+/// Tells whether a hit is the other face of the sheet that the ray leaves: polygons in the same place that face apart.
+/// A scene gives the sides of a surface different shaders by two such polygons with Sides 1. The ray must start on the
+/// sheet, at `from`: a wall near the start keeps its other face. Polygons of different instances make no sheet.
+bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, float rounding);
 
 /// Returns the rounding error of positions: a few units in the last place of their distance from the eye.
 inline float roundingAt(const vec3& P) { return 4e-7f * glm::length(P); }

@@ -76,6 +76,8 @@ TEST(HitList, TheOtherFaceOfASheetIsNoOtherSurface) {
   EXPECT_EQ(answer({front, back, at(3, false)}, start), (Answer{0, 3}));
   EXPECT_EQ(answer({front, wall, at(3, false)}, start), (Answer{0, 5e-7f})) << "a wall at a crease";
   EXPECT_EQ(answer({front, far, at(3, false)}, start), (Answer{0, 2e-6f})) << "the other side of a thin wall";
+  const PolygonHit nearFront = polygon(0.1f, true, {0, 0, 2}), nearBack = polygon(0.1f, false, {0, 0, -3});
+  EXPECT_EQ(answer({nearFront, nearBack}, start), (Answer{0.1f, 0.1f})) << "a wall beside a point of something curved";
   EXPECT_FALSE(isCrowded({front, back}, 0, start));
   EXPECT_TRUE(isCrowded({front, far}, 0, start));
 }
