@@ -59,17 +59,36 @@ int componentsOf(const json& accessor) {
   return type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 0;
 }
 
-const std::string& GltfBuffers::buffer(size_t index) {
-  const auto [place, isNew] = read_.try_emplace(index);
-  if (!isNew) return place->second;
-  const std::string uri = document_.at("buffers").at(index).value("uri", "");
-  if (uri.empty())
-    place->second = binary_;
-  else if (uri.starts_with("data:"))
-    place->second = fromBase64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
-  else
-    place->second = contentOf((std::filesystem::path(folder_) / uri).string());
-  return place->second;
+size_t GltfBuffers::bytesRead() const {
+  size_t out = binary_.size();
+  for (const auto& [index, bytes] : decoded_) out += bytes.size();
+  for (const auto& [path, bytes] : content_) out += bytes.size();
+  return out;
+}
+
+std::string_view GltfBuffers::file(const std::string& uri, size_t most) {
+  std::error_code failed;
+  const std::filesystem::path path = std::filesystem::path(folder_) / uri,
+                              same = std::filesystem::weakly_canonical(path, failed);
+  const auto [place, isNew] = content_.try_emplace((failed ? path : same).string());
+  // Buffers that name more of a file each time would take long, so that the second one reads it whole.
+  if (isNew)
+    place->second = contentOf(place->first, most);
+  else if (most > place->second.size() && readWhole_.insert(place->first).second)
+    place->second = contentOf(place->first);
+  return std::string_view(place->second).substr(0, most);
+}
+
+std::string_view GltfBuffers::buffer(size_t index) {
+  const json& described = document_.at("buffers").at(index);
+  const auto most = described.at("byteLength").get<size_t>();
+  const auto uri = described.find("uri");
+  if (uri == described.end()) return binary_.substr(0, most);
+  const auto& name = uri->get_ref<const std::string&>();
+  if (!name.starts_with("data:")) return file(name, most);
+  const auto [place, isNew] = decoded_.try_emplace(index);
+  if (isNew) place->second = fromBase64(std::string_view(name).substr(std::min(name.find(','), name.size())));
+  return std::string_view(place->second).substr(0, most);
 }
 
 std::optional<std::vector<float>> GltfBuffers::floats(const json& accessor) {
@@ -81,9 +100,9 @@ std::optional<std::vector<float>> GltfBuffers::floats(const json& accessor) {
       !accessor.contains("bufferView"))
     return std::nullopt;
   const json& view = document_.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
-  const std::string& bytes = buffer(view.at("buffer").get<size_t>());
+  const std::string_view bytes = buffer(view.at("buffer").get<size_t>());
   const size_t element = width * component->bytes, count = accessor.at("count").get<size_t>(),
-               stride = view.value("byteStride", element),
+               given = view.value("byteStride", size_t{0}), stride = given == 0 ? element : given,
                first = view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
   // Each of these is small before they are multiplied.
   if (count == 0 || count > bytes.size() || stride > 1024 || first > bytes.size() ||

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <deque>
 
 #include "reyes/base/text.h"
@@ -48,13 +50,35 @@ class ModelFiles : public Assimp::DefaultIOSystem {
   std::deque<std::string> texts_;  // Those that streams read from.
 };
 
-void tellOfExtensions(const PlainGltf& gltf, const SourceLoc& where, Log& log) {
+/// Tells whether a stranger's word may stand in a message.
+bool isPlainName(const std::string& name) {
+  constexpr size_t kLongest = 64;
+  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_');
+  });
+}
+
+/// Lists the first of the names that are plain, and counts the others.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr size_t kMost = 8;
+  std::vector<std::string> out;
+  for (const std::string& name : names)
+    if (out.size() < kMost && isPlainName(name)) out.push_back(name);
+  const size_t others = names.size() - out.size();
+  if (out.empty()) return fmt::format("{} with odd names", others);
+  return fmt::format("{}{}", fmt::join(out, ", "), others > 0 ? fmt::format(" and {} more", others) : "");
+}
+
+void tellOfGltf(const PlainGltf& gltf, const SourceLoc& where, Log& log) {
+  if (gltf.isTooLarge)
+    log.report(
+        Severity::Warning, "import-coordinates", where,
+        "vertices that are told by integers are not understood: as floats they would be far larger than the file");
   if (gltf.leftOut.empty()) return;
   const std::string required =
-      gltf.required.empty() ? ""
-                            : fmt::format("; the file asks not to be read without {}", fmt::join(gltf.required, ", "));
+      gltf.required.empty() ? "" : "; the file asks not to be read without " + listed(gltf.required);
   log.report(Severity::Warning, "import-extension", where,
-             fmt::format("extensions of glTF are left out: {}{}", fmt::join(gltf.leftOut, ", "), required));
+             fmt::format("extensions of glTF are left out: {}{}", listed(gltf.leftOut), required));
 }
 
 }  // namespace
@@ -63,7 +87,7 @@ void importModel(const Settings& settings, Log& log) {
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   const std::string ending = endingOf(settings.model);
   const PlainGltf gltf = ending == ".gltf" || ending == ".glb" ? plainGltf(settings.model) : PlainGltf();
-  tellOfExtensions(gltf, where, log);
+  tellOfGltf(gltf, where, log);
   MtlMaterials materials;
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);

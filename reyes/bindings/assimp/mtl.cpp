@@ -1,5 +1,6 @@
 #include "reyes/bindings/assimp/mtl.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -46,7 +47,7 @@ std::optional<float> numberOf(const std::string& word) {
   return word.empty() || *end != 0 ? std::nullopt : std::optional(out);
 }
 
-/// Reads up to three numbers.
+/// Reads up to three numbers. One that is not finite leaves what was there.
 vec3 numbersOf(Words& words, vec3 out) {
   for (int k = 0; k < 3; ++k) {
     const auto number = numberOf(words.next());
@@ -54,7 +55,7 @@ vec3 numbersOf(Words& words, vec3 out) {
       words.back();
       break;
     }
-    out[k] = *number;
+    if (std::isfinite(*number)) out[k] = *number;
   }
   return out;
 }
@@ -84,7 +85,9 @@ void readOptions(Words& words, aiTextureType type, MtlMaterial* material) {
       for (int k = option == "-mm" ? 2 : 1; k > 0; --k) words.next();
     }
   }
-  if (isPlaced && material) material->placed[type] = {{scale.x, 0, 0}, {0, scale.y, 0}, {offset.x, offset.y, 1}};
+  if (!material) return;
+  material->placed.erase(type);  // which an earlier line may have placed
+  if (isPlaced) material->placed[type] = {{scale.x, 0, 0}, {0, scale.y, 0}, {offset.x, offset.y, 1}};
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string_view>
 
 #include "reyes/bindings/assimp/file_content.h"
 #include "reyes/bindings/assimp/gltf_buffers.h"
@@ -32,72 +34,89 @@ std::vector<std::string> notUnderstood(const json& document, const char* list) {
   return out;
 }
 
-/// The parts of a .glb (section 4.4 of the specification); a .gltf is all text.
+/// The parts of a .glb (section 4.4 of the specification) within its bytes; a .gltf is all text.
 struct Container {
-  std::string text;
-  std::string rest;  ///< The chunks after the text, with their heads.
+  std::string_view text;
+  std::string_view rest;  ///< The chunks after the text, with their heads.
   bool isBinary = false;
 };
 constexpr size_t kChunkHead = 8;
 
-uint32_t wordAt(const std::string& bytes, size_t at) {
+uint32_t wordAt(std::string_view bytes, size_t at) {
   uint32_t out = 0;
   if (at + sizeof out <= bytes.size()) std::memcpy(&out, bytes.data() + at, sizeof out);
   return out;
 }
 
-Container opened(std::string bytes) {
+Container opened(std::string_view bytes) {
   constexpr size_t kText = 20;  // after the file's head and the chunk's
-  if (!bytes.starts_with("glTF") || bytes.size() < kText) return {std::move(bytes), "", false};
+  if (!bytes.starts_with("glTF") || bytes.size() < kText) return {bytes, "", false};
   const size_t end = kText + wordAt(bytes, 12);
   if (end > bytes.size()) return {};
   return {bytes.substr(kText, end - kText), bytes.substr(end), true};
 }
 
-std::string closed(Container c) {
-  if (!c.isBinary) return c.text;
-  c.text.append(-c.text.size() % 4, ' ');
+/// Returns the file with another text.
+std::string closed(const Container& c, std::string text) {
+  if (!c.isBinary) return text;
+  text.append(-text.size() % 4, ' ');
   constexpr size_t kHead = 12;
   const auto word = [](size_t value) {
     const auto bits = static_cast<uint32_t>(value);
     return std::string(reinterpret_cast<const char*>(&bits), sizeof bits);
   };
-  return "glTF" + word(2) + word(kHead + kChunkHead + c.text.size() + c.rest.size()) + word(c.text.size()) + "JSON" +
-         c.text + c.rest;
+  std::string out =
+      "glTF" + word(2) + word(kHead + kChunkHead + text.size() + c.rest.size()) + word(text.size()) + "JSON";
+  out.reserve(out.size() + text.size() + c.rest.size());
+  return out.append(text).append(c.rest);
 }
 
-/// Says in a document what its extensions say.
+/// The floats would be far larger than the integers that they are made of.
+struct TooLarge {};
+
+/// Says in a document what its extensions say. What is malformed is left as it is: Assimp says more of it, or does not
+/// mind.
 class Amendments {
  public:
   Amendments(json& document, GltfBuffers& buffers, std::string& floats)
       : document_(document), buffers_(buffers), floats_(floats) {}
 
-  /// Tells whether anything has changed.
+  /// Tells whether anything has changed. Throws TooLarge.
   bool make() {
-    if (document_.contains("materials"))
-      for (json& material : document_["materials"]) amendMaterial(material);
-    if (document_.contains("meshes"))
-      for (const json& mesh : document_["meshes"])
-        for (const json& primitive : mesh.value("primitives", json::array())) {
-          const json attributes = primitive.value("attributes", json::object());
-          for (const auto& [name, accessor] : attributes.items())
-            amendAttribute(name, document_.at("accessors").at(accessor.get<size_t>()));
-        }
+    for (json& material : listIn(document_, "materials")) unlessMalformed([&] { amendMaterial(material); });
+    for (json& mesh : listIn(document_, "meshes"))
+      for (json& primitive : listIn(mesh, "primitives"))
+        if (primitive.is_object() && primitive.contains("attributes"))
+          for (const auto& [name, accessor] : primitive["attributes"].items())
+            unlessMalformed([&, &name = name, &accessor = accessor] { amendAttribute(name, accessor); });
     if (!floats_.empty()) document_["buffers"].push_back({{"uri", kFloatsFile}, {"byteLength", floats_.size()}});
     return changed_;
   }
 
  private:
+  template <class Change>
+  static void unlessMalformed(Change change) {
+    try {
+      change();
+    } catch (const json::exception&) {
+    }
+  }
+  json& listIn(json& of, const char* name) {
+    const auto found = of.is_object() ? of.find(name) : of.end();
+    return found != of.end() && found->is_array() ? *found : none_;
+  }
   static const json* extension(const json& of, const char* name) {
     const auto all = of.find("extensions");
     return all != of.end() && all->is_object() && all->contains(name) ? &all->at(name) : nullptr;
   }
 
   void amendMaterial(json& material) {
-    if (const json* more = extension(material, "KHR_materials_emissive_strength")) {
+    constexpr const char* kStrength = "KHR_materials_emissive_strength";
+    if (const json* more = extension(material, kStrength)) {
       json emitted = material.value("emissiveFactor", json{0, 0, 0});
       for (json& channel : emitted) channel = channel.get<double>() * more->value("emissiveStrength", 1.0);
       material["emissiveFactor"] = emitted;
+      material["extensions"].erase(kStrength);  // for a later Assimp may apply it too
       changed_ = true;
     }
     amendPictures(material);
@@ -113,51 +132,71 @@ class Amendments {
   }
 
   /// Assimp takes integers of anything but colours for the bits of floats, and colours without alpha for transparent.
-  void amendAttribute(const std::string& name, json& accessor) {
+  void amendAttribute(const std::string& name, json& index) {
+    const json& accessor = document_.at("accessors").at(index.get<size_t>());
     const bool isColor = name.starts_with("COLOR_"),
                isPlace = name == "POSITION" || name == "NORMAL" || name.starts_with("TEXCOORD_");
-    constexpr int kFloat = 5126;
     if (isColor ? componentsOf(accessor) != 3 : !isPlace || accessor.value("componentType", 0) == kFloat) return;
+    json key = json::array({isColor});
+    for (const char* part : {"bufferView", "byteOffset", "componentType", "count", "type", "normalized", "sparse"})
+      key.push_back(accessor.value(part, json()));
+    const auto [place, isNew] = made_.try_emplace(std::move(key));
+    if (isNew) place->second = withFloats(accessor, isColor);
+    if (!place->second) return;
+    index = *place->second;
+    changed_ = true;
+  }
+  /// Adds an accessor of the same numbers, as another attribute may use this one too. Returns its index.
+  std::optional<size_t> withFloats(json accessor, bool isColor) {
     const auto values = buffers_.floats(accessor);
-    if (!values) return;
-    const size_t start = floats_.size();
+    if (!values) return std::nullopt;
+    const size_t start = floats_.size(), added = values->size() * sizeof(float) * (isColor ? 4 : 3) / 3;
+    if (start + added > std::max(kLeastBound, kMostGrowth * buffers_.bytesRead())) throw TooLarge();
     for (size_t k = 0; k < values->size(); ++k) {
       addFloat((*values)[k]);
       if (isColor && k % 3 == 2) addFloat(1);
     }
-    json& views = document_["bufferViews"];
+    json &views = document_["bufferViews"], &accessors = document_["accessors"];
     for (const char* old : {"normalized", "min", "max", "byteOffset"}) accessor.erase(old);
     accessor.update({{"bufferView", views.size()}, {"componentType", kFloat}});
     if (isColor) accessor["type"] = "VEC4";
     views.push_back(
         {{"buffer", document_["buffers"].size()}, {"byteOffset", start}, {"byteLength", floats_.size() - start}});
-    changed_ = true;
+    accessors.push_back(std::move(accessor));
+    return accessors.size() - 1;
   }
   void addFloat(float value) { floats_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+
+  static constexpr int kFloat = 5126;
+  // Bytes grow to six times their size at most where no two accessors share any.
+  static constexpr size_t kLeastBound = size_t{64} << 20, kMostGrowth = 16;
 
   json& document_;
   GltfBuffers& buffers_;
   std::string& floats_;
+  json none_ = json::array();
+  std::map<json, std::optional<size_t>> made_;  // Accessors of floats by what the others say.
   bool changed_ = false;
 };
 
 }  // namespace
 
 PlainGltf plainGltf(const std::string& path) {
-  Container container = opened(contentOf(path));
+  const std::string bytes = contentOf(path);
+  const Container container = opened(bytes);
   json document = json::parse(container.text, nullptr, false);
   PlainGltf out;
   if (!document.is_object()) return out;
+  out.leftOut = notUnderstood(document, "extensionsUsed");
+  out.required = notUnderstood(document, "extensionsRequired");
+  GltfBuffers buffers(document, std::filesystem::path(path).parent_path().string(),
+                      container.rest.substr(std::min(kChunkHead, container.rest.size())));
   try {
-    out.leftOut = notUnderstood(document, "extensionsUsed");
-    out.required = notUnderstood(document, "extensionsRequired");
-    GltfBuffers buffers(document, std::filesystem::path(path).parent_path().string(),
-                        container.rest.substr(std::min(kChunkHead, container.rest.size())));
-    if (!Amendments(document, buffers, out.floats).make()) return out;
-    container.text = document.dump(-1, ' ', false, json::error_handler_t::replace);
-    out.bytes = closed(std::move(container));
-  } catch (const json::exception&) {  // which Assimp says more of, or does not mind
-    out.floats.clear();
+    if (Amendments(document, buffers, out.floats).make())
+      out.bytes = closed(container, document.dump(-1, ' ', false, json::error_handler_t::replace));
+  } catch (const TooLarge&) {
+    out.floats = {};
+    out.isTooLarge = true;
   }
   return out;
 }

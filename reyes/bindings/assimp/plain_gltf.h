@@ -8,6 +8,7 @@ namespace tomales::model {
 struct PlainGltf {
   std::string bytes;                  ///< What Assimp shall read in place of the file; empty: the file as it is.
   std::string floats;                 ///< Content of a file kFloatsFile beside it.
+  bool isTooLarge = false;            ///< The file is left as it is, as the words would be far larger.
   std::vector<std::string> leftOut;   ///< Extensions that the file uses and that are not understood.
   std::vector<std::string> required;  ///< Those of them without which it asks not to be read.
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 namespace tomales::model {
@@ -26,15 +27,25 @@ std::vector<OffLine> linesOf(const std::string& text) {
   return out;
 }
 
+/// Returns the first word of a text, after comments.
+std::string_view firstWord(std::string_view text) {
+  constexpr const char* kSpace = " \t\r\n\v\f";
+  size_t begin = text.find_first_not_of(kSpace);
+  while (begin != text.npos && text[begin] == '#') begin = text.find_first_not_of(kSpace, text.find('\n', begin));
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_first_of(" \t\r\n\v\f#", begin) - begin);
+}
+
 float numberIn(const std::string& word) { return std::strtof(word.c_str(), nullptr); }
 
 }  // namespace
 
-std::string plainOff(const std::string& text) {
-  std::vector<OffLine> lines = linesOf(text);
-  const std::string head = lines.empty() ? "" : lines[0][0];
+std::string plainOff(std::string text) {
+  const std::string_view head = firstWord(text);  // Most files have no colours, and long lists.
   const bool hasNormals = head == "CNOFF";
-  if ((head != "COFF" && !hasNormals) || lines.size() < 2) return text;
+  if (head != "COFF" && !hasNormals) return text;
+  std::vector<OffLine> lines = linesOf(text);
+  if (lines.size() < 2) return text;
   if (lines[0].size() == 1) {  // the counts follow on a line of their own
     lines[0].insert(lines[0].end(), lines[1].begin(), lines[1].end());
     lines.erase(lines.begin() + 1);

@@ -6,6 +6,6 @@ namespace tomales::model {
 
 /// Returns the text with colours of vertices as four floats from 0 to 1: Assimp takes integers up to 255 for floats,
 /// and does not read fewer than four. A text without such colours is returned as it is.
-std::string plainOff(const std::string& text);
+std::string plainOff(std::string text);
 
 }  // namespace tomales::model

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -61,9 +62,11 @@ class PlyReader {
     }
   }
   std::vector<vec3> colorsOfFaces() {
+    const auto face =
+        std::find_if(elements_.begin(), elements_.end(), [](const Element& e) { return e.name == "face"; });
+    if (face == elements_.end() || !hasColors(*face)) return {};
     for (const Element& e : elements_) {
-      const bool isFace = e.name == "face";
-      if (isFace && !hasColors(e)) return {};
+      const bool isFace = &e == &*face;
       if (e.properties.empty()) continue;  // else the loop would not end
       std::vector<vec3> colors;
       for (uint64_t k = 0; k < e.count && in_; ++k) {
@@ -79,6 +82,8 @@ class PlyReader {
   static bool hasColors(const Element& e) {
     return std::any_of(e.properties.begin(), e.properties.end(), [](const Property& p) { return p.name == "red"; });
   }
+  /// Returns a colour from 0 to 1, and 0 for what is no number.
+  static float shareOf(double value) { return value > 0 ? static_cast<float>(std::min(value, 1.0)) : 0; }
   /// Reads one of the elements.
   vec3 colorOf(const Element& e) {
     vec3 out(0.0f);
@@ -87,25 +92,31 @@ class PlyReader {
       for (double k = 0; k < count && in_; ++k) {
         const double value = number(p.type);
         const size_t channel = p.name == "red" ? 0 : p.name == "green" ? 1 : p.name == "blue" ? 2 : 3;
-        if (channel < 3 && p.type) out[static_cast<int>(channel)] = static_cast<float>(value / p.type->most);
+        if (channel < 3 && p.type) out[static_cast<int>(channel)] = shareOf(value / p.type->most);
       }
     }
     return out;
   }
   double number(const PlyType* type) {
     if (!type) in_.setstate(std::ios::failbit);
-    double out = 0;
-    if (isText_ || !in_) {
-      in_ >> out;
-      return out;
-    }
+    if (isText_ || !in_) return writtenNumber();
     char bytes[8] = {};
     in_.read(bytes, static_cast<std::streamsize>(type->bytes));
     if (isSwapped_ == (std::endian::native == std::endian::little)) std::reverse(bytes, bytes + type->bytes);
     return type->read(bytes);
   }
 
+  /// Streams do not read "nan" and "inf", which strtod does.
+  double writtenNumber() {
+    in_ >> word_;
+    char* end = word_.data();
+    const double out = in_ ? std::strtod(word_.c_str(), &end) : 0;
+    if (end == word_.data()) in_.setstate(std::ios::failbit);
+    return out;
+  }
+
   std::ifstream in_;
+  std::string word_;
   bool isText_ = false, isSwapped_ = false;
   std::vector<Element> elements_;
 };

@@ -40,7 +40,7 @@ std::optional<Metallic> metallicOfSpecularGlossiness(const aiMaterial& m) {
              scattered = vec3(diffuse.r, diffuse.g, diffuse.b) * (1 - maxComponent(reflected));
   Metallic out;
   out.opacity = diffuse.a;
-  out.roughness = 1 - gloss;
+  out.roughness = 1 - glm::clamp(gloss, 0.0f, 1.0f);
   out.metallic = metallicFor(luminance(scattered), luminance(reflected));
   const vec3 ofDiffuse = scattered / std::max(1 - out.metallic, 1e-3f),
              ofMetal = (reflected - kDielectric * (1 - out.metallic)) / std::max(out.metallic, 1e-3f);
