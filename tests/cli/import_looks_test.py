@@ -97,6 +97,7 @@ rib = glossy("chalk.glb", diffuseFactor=[0.5, 0.25, 0.125, 1], specularFactor=[0
 near("a diffuse colour without highlights", color(rib) + numbers(rib, "specular") + numbers(rib, "roughness") + numbers(rib, "metallic"), [0.5, 0.25, 0.125, 0, 1])
 rib = glossy("paint.glb", diffuseFactor=[0.5, 0.25, 0.125, 1], specularFactor=[0.04] * 3, glossinessFactor=0.75)
 near("a varnished one", color(rib) + numbers(rib, "specular") + numbers(rib, "roughness") + numbers(rib, "metallic"), [0.48, 0.24, 0.12, 0.5, 0.25])
+near("glossiness beyond 1", numbers(glossy("wet.glb", diffuseFactor=[0.5, 0.5, 0.5, 1], glossinessFactor=3), "roughness"), [0])
 rib = glossy("gold.glb", diffuseFactor=[0, 0, 0, 1], specularFactor=[1, 0.75, 0.25], glossinessFactor=0.5)
 near("a metal", color(rib) + numbers(rib, "metallic"), [1, 0.75, 0.25, 1])
 rib = glossy("glass.glb", white, "BLEND", diffuseFactor=[1, 1, 1, 0.5], specularFactor=[0, 0, 0])
@@ -138,11 +139,20 @@ t.expect('Os"' not in rib, "are opaque")
 
 bright = scene_of(lambda s: {"emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 3}}})
 near("emission has its strength", numbers(imported("bright.glb", using(bright, "KHR_materials_emissive_strength").glb()), "emission"), [3, 1.5, 0])
+bright.add("materials", {"emissiveFactor": "x", "extensions": {"KHR_materials_emissive_strength": {}}})
+near("beside a malformed one too", numbers(imported("bright.glb", bright.glb()), "emission"), [3, 1.5, 0])
+shared = scene_of(lambda s: {}, POSITION=[(x, y, 0.5) for x, y in UV])
+attributes = shared.document["meshes"][0]["primitives"][0]["attributes"]
+attributes["COLOR_0"] = attributes["POSITION"]
+rib = imported("shared.glb", shared.glb())
+near("places that are colours too", numbers(rib, "P") + numbers(rib, "Cs"), [(x, y, 0.5) for x, y in UV] * 2)
 second = scene_of(lambda s: {"pbrMetallicRoughness": {"baseColorTexture": textured(s, texCoord=1, scale=[2, 2])}}, TEXCOORD_1=[(u / 2, v) for u, v in UV])
 near("a transformation names its coordinates", numbers(imported("named.glb", using(second, "KHR_texture_transform").glb()), "st"), transformed([(u / 2, v) for u, v in DOWN], scale=(2, 2)))
 odd = using(scene_of(lambda s: {}), "KHR_materials_iridescence", "KHR_materials_unlit", "EXT_odd")
 odd.document["extensionsRequired"] = ["EXT_odd"]
 imported("odd.glb", odd.glb(), 0, "left out: KHR_materials_iridescence, EXT_odd; the file asks not to be read without EXT_odd [import-extension]")
+odd.document.update(extensionsUsed=["\x1b[2J", "A" * 65] + [f"EXT_{k}" for k in range(20)], extensionsRequired=["a b"])
+imported("odd.glb", odd.glb(), 0, "left out: EXT_0, EXT_1, EXT_2, EXT_3, EXT_4, EXT_5, EXT_6, EXT_7 and 14 more; the file asks not to be read without 1 with odd names [import-extension]")
 
 # Materials of .obj place their pictures. What they do not give is no colour of theirs.
 t.write("white.png", white)
@@ -162,6 +172,8 @@ for options, (sx, sy), (x, y) in (("-s 2 3 1", (2, 3), (0, 0)), ("-o .25 -.5", (
     near(f"map_Kd {options}", numbers(rib, "st"), [(sx * u + x, 1 - (sy * v + y)) for u, v in UV])
     near("with its colour", painted(rib), [0.5] * 3)
     t.expect("texturename" in rib, "and its picture")
+near("a later line places its picture anew", numbers(of_mtl("map_Kd -s 2 2 2 white.png\nmap_Kd white.png\n"), "st"), DOWN)
+near("scales that are no numbers are left out", numbers(of_mtl("map_Kd -s nan 2 1 -o 1e39 0 white.png\n"), "st"), [(u, 1 - 2 * v) for u, v in UV])
 near("a picture without a colour is seen as it is", painted(of_mtl("map_Kd white.png\n")), [1] * 3)
 near("so are colours of vertices", numbers(of_mtl("Ns 10\n", rainbow), "Cs"), rainbow)
 near("which multiply a colour that is given", numbers(of_mtl("Kd .5 .5 .5\n", rainbow), "Cs"), [tuple(c / 2 for c in row) for row in rainbow])
@@ -189,6 +201,10 @@ LIST = "property list uchar int vertex_indices\n"
 SHADES = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
 of_faces = ply(SQUARE, FACES).replace(LIST, LIST + SHADES).replace("3 0 1 2", "3 0 1 2 255 0 51").replace("3 0 2 3", "3 0 2 3 0 102 0")
 near("colours of faces in text", numbers(imported("faces.ply", of_faces), "Cs"), [(1, 0, 0.2), (0, 0.4, 0)])
+quality = of_faces.replace("float z\n", "float z\nproperty float quality\n").replace("-1 -1 0\n", "-1 -1 0 nan\n").replace("1 -1 0\n", "1 -1 0 -inf\n").replace("1 1 0\n", "1 1 0 1e99\n")
+near("behind what is no number", numbers(imported("faces.ply", quality), "Cs"), [(1, 0, 0.2), (0, 0.4, 0)])
+wild = of_faces.replace("uchar red", "double red").replace("uchar green", "float green").replace("255 0 51", "1e300 -5 51").replace("0 102 0", "nan 0.5 0")
+near("beyond 0 and 1", numbers(imported("faces.ply", wild), "Cs"), [(1, 0, 0.2), (0, 0.5, 0)])
 for order, sign in (("little", "<"), ("big", ">")):
     head = ply(SQUARE, FACES).split("end_header\n")[0].replace("ascii", f"binary_{order}_endian").replace(LIST, SHADES + LIST) + "end_header\n"
     body = b"".join(struct.pack(sign + "3f", *p) for p in SQUARE) + b"".join(struct.pack(sign + "3BB3i", *c, 3, *f) for c, f in zip(((255, 0, 51), (0, 102, 0)), FACES))
