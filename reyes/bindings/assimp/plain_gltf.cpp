@@ -68,7 +68,8 @@ std::string closed(const Container& c, std::string text) {
   std::string out =
       "glTF" + word(2) + word(kHead + kChunkHead + text.size() + c.rest.size()) + word(text.size()) + "JSON";
   out.reserve(out.size() + text.size() + c.rest.size());
-  return out.append(text).append(c.rest);
+  out.append(text).append(c.rest);
+  return out;
 }
 
 /// The floats would be far larger than the integers that they are made of.
