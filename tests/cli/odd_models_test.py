@@ -165,6 +165,10 @@ for name, model in FORMATS.items():
     for share in (0.3, 0.6, 0.9):
         judge(f"{share} of a file", name, whole[:int(share * len(whole))], "either")
 
+integers = shaped(square, [(0, 1, 2), (0, 2, 3)])
+set_in("accessors", componentType=5121)(integers)
+judge("lists within lists", "odd.gltf", integers.gltf().replace('"asset"', f'"extras": {"[" * 100000 + "]" * 100000}, "asset"', 1), "either")
+
 # Small files may ask for a lot of memory. 200 buffers are the same large file, of which each needs little.
 BYTES = {"componentType": 5121, "type": "VEC3"}
 

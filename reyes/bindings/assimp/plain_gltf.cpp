@@ -72,6 +72,21 @@ std::string closed(const Container& c, std::string text) {
   return out;
 }
 
+/// Tells whether lists lie within one another so deep that what calls itself for each would run out of stack.
+bool isDeep(std::string_view text) {
+  constexpr int kDeepest = 500;
+  int depth = 0;
+  bool isQuoted = false;
+  for (size_t k = 0; k < text.size() && depth <= kDeepest; ++k) {
+    const char c = text[k];
+    if (isQuoted && c == '\\') ++k;  // The next one does not end the word.
+    if (c == '"') isQuoted = !isQuoted;
+    if (isQuoted) continue;
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+  }
+  return depth > kDeepest;
+}
+
 /// The floats would be far larger than the integers that they are made of.
 struct TooLarge {};
 
@@ -185,8 +200,9 @@ class Amendments {
 PlainGltf plainGltf(const std::string& path) {
   const std::string bytes = contentOf(path);
   const Container container = opened(bytes);
-  json document = json::parse(container.text, nullptr, false);
   PlainGltf out;
+  if (isDeep(container.text)) return out;
+  json document = json::parse(container.text, nullptr, false);
   if (!document.is_object()) return out;
   out.leftOut = notUnderstood(document, "extensionsUsed");
   out.required = notUnderstood(document, "extensionsRequired");
