@@ -16,8 +16,9 @@ constexpr float kOutside = 1.01f;
 /// A photon that leaves a light, in current space.
 struct EmittedPhoton {
   Ray ray;
-  vec3 power{0.0f};   ///< Power of this photon if it were the only one; zero: the light sends nothing there.
-  vec3 normal{0.0f};  ///< Normal of the surface that it leaves; zero: it leaves none.
+  vec3 power{0.0f};         ///< Power of this photon if it were the only one; zero: the light sends nothing there.
+  vec3 normal{0.0f};        ///< Normal of the surface that it leaves; zero: it leaves none.
+  bool passesLamp = false;  ///< The geometry of its own lamp lets it pass, as it does shadow rays.
 };
 
 /// The part of the scene that photons are aimed at.

@@ -238,6 +238,7 @@ void AreaPhotons::emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out
     rays_.prepareOrigin(group[i], ray.origin, 0, ray);
     ray.offset /= std::max(local.z, kLeastCosine);
     out[i].normal = Nl;
+    out[i].passesLamp = allRound;
     probe.Pl.push_back(ray.origin);
     probe.Nl.push_back(Nl);
     probe.P.push_back(ray.origin + ray.direction);

@@ -1,5 +1,7 @@
 #include "gi/photons/tracer.h"
 
+#include <utility>
+
 #include "raytrace/emitter_shapes.h"
 #include "raytrace/hit_list.h"
 #include "reyes/base/random_streams.h"
@@ -43,6 +45,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
     paths.push_back({e.ray, e.power * share, number, source.light()});
     paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
+    if (e.passesLamp) paths.back().besideLamp = rays_.groupsBesideLamp(source.light());
     // Gather rays see the glow itself, so its photons begin as photons that have been scattered by a surface.
     if (source.light() < 0) {
       paths.back().depth = paths.back().bounces = 1;
@@ -97,16 +100,21 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
 /// Returns the first hit of a photon. Photons leave polygons, not the true surfaces, so a ray may start just before its
 /// polygon. If that ray meets nothing near, its hit is the one that the hit list would find, at less cost.
 Hit PhotonTracer::firstHit(Path& path) const {
+  RayFilter filter;
+  filter.also = std::exchange(path.besideLamp, nullptr);
   Ray free = path.ray;
+  if (filter.also) free.filter = &filter;
   const bool hasList = free.offset > 0;
   if (hasList) {
     free.origin += path.lift;
     free.offset = free.bias = 0;
   }
   Hit hit = rays_.closest(free, kMaskPhoton);
-  if (hasList && hit.t <= recordingWindow(path.ray.offset))
-    hit = rays_.closest(path.ray, kMaskPhoton);
-  else
+  if (hasList && hit.t <= recordingWindow(path.ray.offset)) {
+    Ray listing = path.ray;
+    listing.filter = free.filter;
+    hit = rays_.closest(listing, kMaskPhoton);
+  } else
     path.ray.origin = free.origin;  // t counts from that origin
   return hit;
 }

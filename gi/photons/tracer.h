@@ -34,6 +34,8 @@ class PhotonTracer {
     bool specularFirst = false;
     bool specular = true;  ///< It has met no diffuse surface so far.
     vec3 lift{0.0f};       ///< Offset from the origin to just before the polygon that it leaves.
+    /// RayScene::groupsBesideLamp() until its first hit, if its lamp lets it pass; else null.
+    const std::vector<uint8_t>* besideLamp = nullptr;
   };
   using Answer = PhotonSurfaces::Answer;
   struct Draw {

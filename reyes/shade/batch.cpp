@@ -38,9 +38,10 @@ const float* Batch::primvar(int offset) const {
   return grid ? grid->primvar(offset) : (wide_ ? wide_->points : *points).primvar(offset);
 }
 
-std::vector<TmValue> Batch::valuesOf(const BoundShader& shader) const {
-  std::vector<TmValue> out = shader.values;
-  if (!hasPrimvars()) return out;
+const std::vector<TmValue>& Batch::valuesOf(const BoundShader& shader) {
+  const auto [place, isNew] = values_.try_emplace(&shader, shader.values);
+  std::vector<TmValue>& out = place->second;
+  if (!isNew || !hasPrimvars()) return out;
   for (const Override& o : group.overridesOf(shader)) {
     TmValue& value = out[static_cast<size_t>(o.param)];
     if ((shader.shader->params[o.param].type & kArrayVaries) != 0)
@@ -55,6 +56,7 @@ std::vector<TmValue> Batch::valuesOf(const BoundShader& shader) const {
 void Batch::setCommon(int count, const BoundShader& shader) {
   tm = {};
   own = &shader;
+  values_.clear();
   tm.structBytes = sizeof(TmGrid);
   tm.count = count;
   tm.padded = padded(count);
@@ -162,6 +164,7 @@ void Batch::setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& m
   own = asking.own;
   running = asking.running;
   points = &moved;
+  values_.clear();
   tm = asking.tm;
   tm.host = this;
   uint8_t* active = arena.bytes(tm.padded);

@@ -47,8 +47,9 @@ class Batch {
   bool hasPrimvars() const;
   /// Returns values of the primitive variables at the points and their neighbours. Pre: hasPrimvars().
   const float* primvar(int offset) const;
-  /// Returns the parameters of a shader of the group, with those that primitive variables give.
-  std::vector<TmValue> valuesOf(const BoundShader& shader) const;
+  /// Returns the parameters of a shader of the group, with those that primitive variables give, until the batch is set
+  /// anew.
+  const std::vector<TmValue>& valuesOf(const BoundShader& shader);
 
   /// Calls the shader. Returns false, after a report, if it has thrown.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
@@ -117,7 +118,8 @@ class Batch {
   std::vector<TmValue> params_;
   std::optional<Widened> wide_;
   std::deque<std::string> answers_;
-  bool computing_ = false;  ///< computed() is running.
+  std::map<const BoundShader*, std::vector<TmValue>> values_;     ///< The results of valuesOf().
+  std::vector<std::pair<const BoundShader*, int>> computingNow_;  ///< Parameters that computed() is finding.
 };
 
 /// Returns the default options, with the fields that a caller gives. The caller's struct begins with structBytes, which

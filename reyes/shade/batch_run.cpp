@@ -1,6 +1,7 @@
 // A batch runs its shaders, and tells what they did wrong.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "reyes/shade/batch.h"
@@ -27,11 +28,12 @@ bool Batch::run(const BoundShader& shader, const TmGrid& tmGrid) {
 }
 
 std::optional<RslValue> Batch::computed(const BoundShader& shader, int param, const TmGrid& tmGrid) {
-  if (computing_) return std::nullopt;
-  computing_ = true;
+  const std::pair asked(&shader, param);
+  if (std::ranges::find(computingNow_, asked) != computingNow_.end()) return std::nullopt;
+  computingNow_.push_back(asked);
   RslValue out;
   const bool finished = guarded(shader, [&] { out = rslValue(*shader.shader, param, tmGrid); });
-  computing_ = false;
+  computingNow_.pop_back();
   return finished ? std::optional(std::move(out)) : std::nullopt;
 }
 

@@ -82,9 +82,8 @@ int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmG
 /// Finds a parameter of another shader of the group, as it is at the points of the batch.
 int32_t answerOther(Batch& batch, const BoundShaderPtr& shader, std::string_view name, int32_t* type, TmValue* out) {
   if (!shader) return 0;
-  const std::vector<TmValue> values = batch.valuesOf(*shader);
   TmGrid g = batch.tm;
-  g.params = values.data();
+  g.params = batch.valuesOf(*shader).data();
   return answerShaderParameter(batch, shader.get(), g, name, type, out);
 }
 

@@ -103,6 +103,17 @@ hidden = render("hidden", lamp("even") + '\nAttributeBegin Surface "constant" Op
 t.expect(max(p[0] for p in hidden.values()) == 0, "  what is between throws a shadow")
 t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp("still", "")), "-o", "still.exr"], 0, "not an area light; it shines without its geometry")
 
+# Photons pass the lamp that they leave, as shadow rays do: half of those of a ball that shines all round begin inwards.
+walls = ('AttributeBegin Attribute "visibility" "int camera" [0] Patch "bilinear" "P" [1 1 0  1 -1 0  1 1 -3  1 -1 -3]'
+         ' Patch "bilinear" "P" [-1 1 0  -1 -1 0  -1 1 -3  -1 -1 -3] AttributeEnd')
+round_lamp = SCENE % (LAMP % ("Translate 0 0 -1.5 ", "even", "", "") + "\n" + walls)
+t.write("photons.rib", round_lamp.replace('Patch "bilinear" "P" []', "Sphere .5 -.5 .5 360"))
+counted = []
+for method in (["progressive", "--photons", "200000"], ["reference", "--samples", "200"]):
+    t.expect_run(method[0], ["photons.rib", "-o", "photons.exr", "--gi", *method, "--bounces", "1", "--indirect-only"], 0)
+    counted.append(sum(p[0] for p in pixels(t.folder / "photons.exr").values()))
+t.expect(counted[1] > 1 and abs(counted[0] / counted[1] - 1) < 0.04, f"  all photons of a lamp leave it ({counted})")
+
 # solar() without a direction takes light from everywhere above. E/pi of a sky that is 1 is 1 (RISpec 3.2, section 13.4).
 t.write("sky.sl", "light sky(color shade = 1) { solar() { Cl = shade; } }\n")
 t.write("dome.sl", 'light dome() { solar() { vector way = vtransform("world", -normalize(L)); Cl = -zcomp(way); } }\n')

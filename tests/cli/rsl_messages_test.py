@@ -32,6 +32,12 @@ def expect(name, picture, wanted, what, tolerance=0.02):
     t.expect(off < tolerance, f"  {what} (off by {off:.3f})")
 
 
+# A default may ask another shader for one that it computes in turn.
+t.write("asked.sl", "displacement asked(float a = 2; float b = 3 * a;) { N = N; }\n")
+t.write("chain.sl", 'float b() { float x = -3; displacement("b", x); return x; }\nsurface chain(float c = b();) { Ci = c / 8; Oi = 1; }\n')
+t.write("last.sl", 'volume last() { float x = -1; float r = surface("c", x); Ci = color(comp(Ci, 0), x / 8, r); Oi = 1; }\n')
+expect("chain", shown("chain", 'Displacement "asked" Surface "chain" Atmosphere "last"'), lambda s: (0.75, 0.75, 1), "a chain of defaults")
+
 # The parameters of the surface have defaults of every kind that it computes when it runs.
 t.write("told.sl", """surface told(float a = 2; float b = 3 * a; vector w = vector "world" (1, 0, 0); color c = color(s, a, 0); string n = concat("x", "y");
     float l[2] = {a, 2 * a}; matrix m = translate(1, vector(a, 0, 0)); output float o = .5; output varying color p = 1; output float kept = 4 * a;) {
