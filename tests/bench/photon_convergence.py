@@ -34,6 +34,8 @@ parser.add_argument("--truth-photons", type=float, default=1e8)
 parser.add_argument("--truths", type=int, default=4)
 parser.add_argument("--threads", type=int, default=2)
 args = parser.parse_args()
+if min(args.seeds, args.truths) < 2:
+    parser.error("noise is what several seeds tell: give two or more")
 args.folder.mkdir(parents=True, exist_ok=True)
 
 
