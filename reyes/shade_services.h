@@ -243,8 +243,8 @@ class ShadeServices {
   /// geometry.
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
-  /// Takes points all over area light `light` by their area, on the sides that are seen and on others. Where `out.pdf`
-  /// is p, 1 / (pi p) is the share of a point's area in that of the whole, which is 1 on the average; meetPdf is 0.
+  /// Takes points all over area light `light`, evenly by area, on the sides that are seen and on others. `out.pdf` is
+  /// such that a mean weighed by 1 / (pi pdf) is the mean over the area. meetPdf is 0, as no direction finds them.
   /// Returns false if the light has no geometry.
   virtual bool sampleWholeEmitter(int, int, const float*, const float*, const EmitterPoints&) const { return false; }
   /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes. Where

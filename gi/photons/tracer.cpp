@@ -33,6 +33,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
   std::vector<EmittedPhoton> emitted(count);
   source.emit(first, seed, emitted);
   const uint32_t stream = hashCombine(seed, static_cast<uint32_t>(source.light()), randomStream("boun"));
+  const std::vector<uint8_t>* besideLamp = nullptr;
   std::vector<Path> paths;
   Scratch scratch;
   paths.reserve(count);
@@ -45,7 +46,8 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
     paths.push_back({e.ray, e.power * share, number, source.light()});
     paths.back().ray.time = timeOf(number, stream);
     paths.back().lift = liftOf(e.ray, e.normal);
-    if (e.passesLamp) paths.back().besideLamp = rays_.groupsBesideLamp(source.light());
+    if (e.passesLamp && !besideLamp) besideLamp = rays_.groupsBesideLamp(source.light());
+    if (e.passesLamp) paths.back().besideLamp = besideLamp;
     // Gather rays see the glow itself, so its photons begin as photons that have been scattered by a surface.
     if (source.light() < 0) {
       paths.back().depth = paths.back().bounces = 1;
@@ -102,20 +104,19 @@ void PhotonTracer::fly(std::vector<Path>& paths, Scratch& s) const {
 Hit PhotonTracer::firstHit(Path& path) const {
   RayFilter filter;
   filter.also = std::exchange(path.besideLamp, nullptr);
+  if (filter.also) path.ray.filter = &filter;
   Ray free = path.ray;
-  if (filter.also) free.filter = &filter;
   const bool hasList = free.offset > 0;
   if (hasList) {
     free.origin += path.lift;
     free.offset = free.bias = 0;
   }
   Hit hit = rays_.closest(free, kMaskPhoton);
-  if (hasList && hit.t <= recordingWindow(path.ray.offset)) {
-    Ray listing = path.ray;
-    listing.filter = free.filter;
-    hit = rays_.closest(listing, kMaskPhoton);
-  } else
+  if (hasList && hit.t <= recordingWindow(path.ray.offset))
+    hit = rays_.closest(path.ray, kMaskPhoton);
+  else
     path.ray.origin = free.origin;  // t counts from that origin
+  path.ray.filter = nullptr;
   return hit;
 }
 

@@ -39,9 +39,14 @@ const float* Batch::primvar(int offset) const {
 }
 
 const std::vector<TmValue>& Batch::valuesOf(const BoundShader& shader) {
-  const auto [place, isNew] = values_.try_emplace(&shader, shader.values);
-  std::vector<TmValue>& out = place->second;
-  if (!isNew || !hasPrimvars()) return out;
+  const auto [place, isNew] = values_.try_emplace(&shader);
+  if (isNew) place->second = laidOut(shader);
+  return place->second;
+}
+
+std::vector<TmValue> Batch::laidOut(const BoundShader& shader) const {
+  std::vector<TmValue> out = shader.values;
+  if (!hasPrimvars()) return out;
   for (const Override& o : group.overridesOf(shader)) {
     TmValue& value = out[static_cast<size_t>(o.param)];
     if ((shader.shader->params[o.param].type & kArrayVaries) != 0)
@@ -77,7 +82,7 @@ void Batch::setCommon(int count, const BoundShader& shader) {
 }
 
 void Batch::setVariables() {
-  params_ = valuesOf(*own);
+  params_ = laidOut(*own);
   tm.params = params_.data();
   const Attributes& a = *group.group->attributes;
   const auto color = [&](int offset, const vec3& attribute) {

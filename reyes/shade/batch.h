@@ -106,6 +106,8 @@ class Batch {
   };
 
  private:
+  /// Lays out what valuesOf() returns.
+  std::vector<TmValue> laidOut(const BoundShader& shader) const;
   /// Calls what runs code of the shader. Returns false, after a report, if it has thrown.
   bool guarded(const BoundShader& shader, const std::function<void()>& call);
   void setCommon(int count, const BoundShader& shader);
