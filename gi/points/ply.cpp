@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "gi/points/ply_reader.h"
 #include "reyes/base/checksum.h"
+#include "reyes/base/ply_reader.h"
 #include "reyes/base/unfinished_file.h"
 
 namespace tomales {

@@ -1,4 +1,4 @@
-// Reads the numbers of a PLY file, one after the other. gi/ply.h tells what they mean.
+// Reads the numbers of a PLY file, one after the other. Point clouds (gi/ply.h) and models are made of them.
 // Threads: none.
 #pragma once
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "gi/points/ply_reader.h"
+#include "reyes/base/ply_reader.h"
 
 #include <algorithm>
 #include <bit>
