@@ -17,11 +17,15 @@ bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance) {
   return a.leaving == b.leaving && std::abs(a.t - b.t) <= distance;
 }
 
-bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, float rounding) {
+bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, const RayStart& start) {
   constexpr float kParallel = 0.9999f;  // The cosine of 0.8 degrees: both may be tessellated differently.
-  const bool isHere = std::abs(from.t) <= rounding && std::abs(hit.t - from.t) <= rounding;
-  if (!isHere || from.leaving == hit.leaving || from.instance != hit.instance) return false;
-  return std::abs(dot(from.normal, hit.normal)) > kParallel * glm::length(from.normal) * glm::length(hit.normal);
+  if (from.leaving == hit.leaving || from.instance != hit.instance) return false;
+  // A slanted ray meets what lies so far from its origin later.
+  const bool isKnown = start.direction != vec3(0) && from.instance < 0;
+  const float length = glm::length(from.normal), along = isKnown ? std::abs(dot(start.direction, from.normal)) : length;
+  const float most = start.rounding * length;
+  if (!(std::abs(from.t) * along <= most && std::abs(hit.t - from.t) * along <= most)) return false;
+  return std::abs(dot(from.normal, hit.normal)) > kParallel * length * glm::length(hit.normal);
 }
 
 int effectiveOrigin(const HitList& sorted, const RayStart& start) {
@@ -44,7 +48,7 @@ bool isCrowded(const HitList& sorted, int origin, const RayStart& start) {
   const PolygonHit& from = sorted[static_cast<size_t>(origin)];
   return std::any_of(sorted.begin(), sorted.end(), [&](const PolygonHit& hit) {
     return std::abs(hit.t) <= start.offset && hit.group == from.group && hit.leaving != from.leaving &&
-           !isOtherFace(from, hit, start.rounding);
+           !isOtherFace(from, hit, start);
   });
 }
 
@@ -53,7 +57,7 @@ int nextHit(const HitList& sorted, int origin, const RayStart& start) {
     if (origin < 0) return hit.t > 0;
     const PolygonHit& from = sorted[static_cast<size_t>(origin)];
     return hit.t >= from.t - start.rounding && !sameSurface(from, hit, mergeDistance(start.offset)) &&
-           !isOtherFace(from, hit, start.rounding);
+           !isOtherFace(from, hit, start);
   };
   const auto next = std::find_if(sorted.begin(), sorted.end(), follows);
   return next == sorted.end() ? -1 : static_cast<int>(next - sorted.begin());

@@ -45,11 +45,6 @@ void sortAlongRay(HitList& list);
 /// sense are one surface. The objects may differ: at the crease of two walls a ray leaves both, and neither shadows it.
 bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance);
 
-/// Tells whether a hit is the other face of the sheet that the ray leaves: polygons in the same place that face apart.
-/// A scene gives the sides of a surface different shaders by two such polygons with Sides 1. The ray must start on the
-/// sheet, at `from`: a wall near the start keeps its other face. Polygons of different instances make no sheet.
-bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, float rounding);
-
 /// Returns the rounding error of positions: a few units in the last place of their distance from the eye.
 inline float roundingAt(const vec3& P) { return 4e-7f * glm::length(P); }
 
@@ -58,7 +53,13 @@ struct RayStart {
   float offset = 0;
   float rounding = 0;  ///< Hits that are no farther apart may lie at the same place.
   int group = -1;      ///< Shade group that the ray leaves; -1: unknown.
+  vec3 direction{0};   ///< Of the ray, unit length; zero: every polygon is met at right angles.
 };
+
+/// Tells whether a hit is the other face of the sheet that the ray leaves: polygons in the same place that face apart.
+/// A scene gives the sides of a surface different shaders by two such polygons with Sides 1. The ray must start on the
+/// sheet, at `from`: a wall near the start keeps its other face. Polygons of different instances make no sheet.
+bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, const RayStart& start);
 
 /// Tells whether the other side of a wall lies within the offset, besides the origin (-1: none). It has to be of the
 /// same group and turned away, because blades and leaves side by side are no walls. A sheet of two faces is none

@@ -15,7 +15,7 @@ inline bool traceable(const Ray& ray) {
   return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != vec3(0) && ray.tMax > 0;
 }
 
-inline RayStart startOf(const Ray& ray) { return {ray.offset, roundingAt(ray.origin), ray.group}; }
+inline RayStart startOf(const Ray& ray) { return {ray.offset, roundingAt(ray.origin), ray.group, ray.direction}; }
 
 struct RayScene::Impl {
   Impl(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const RaySettings& settings, Log& log);

@@ -70,7 +70,7 @@ TEST(HitList, TheOtherFaceOfASheetIsNoOtherSurface) {
     hit.normal = normal;
     return hit;
   };
-  const RayStart start{kOffset, 1e-6f, 0};
+  const RayStart start{kOffset, 1e-6f, 0}, slanted{kOffset, 1e-6f, 0, normalizeOr(vec3(1, 0, 0.01f), {})};
   const PolygonHit front = polygon(0, true, {0, 0, 2}), back = polygon(5e-7f, false, {0, 0, -3}),
                    far = polygon(2e-6f, false, {0, 0, -3}), wall = polygon(5e-7f, false, {0, 1, 0});
   EXPECT_EQ(answer({front, back, at(3, false)}, start), (Answer{0, 3}));
@@ -78,6 +78,7 @@ TEST(HitList, TheOtherFaceOfASheetIsNoOtherSurface) {
   EXPECT_EQ(answer({front, far, at(3, false)}, start), (Answer{0, 2e-6f})) << "the other side of a thin wall";
   const PolygonHit nearFront = polygon(0.1f, true, {0, 0, 2}), nearBack = polygon(0.1f, false, {0, 0, -3});
   EXPECT_EQ(answer({nearFront, nearBack}, start), (Answer{0.1f, 0.1f})) << "a wall beside a point of something curved";
+  EXPECT_EQ(answer({front, polygon(5e-5f, false, {0, 0, -3}), at(3, false)}, slanted), (Answer{0, 3}));
   EXPECT_FALSE(isCrowded({front, back}, 0, start));
   EXPECT_TRUE(isCrowded({front, far}, 0, start));
 }
