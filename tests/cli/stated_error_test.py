@@ -45,11 +45,11 @@ t.expect(render("shot.exr", "--audit=30", "--irradiance", "room.icf", command=("
          "and with the records of a file")
 t.expect(pixels(t.folder / "shot.exr") == plain, "which has the same picture, audited or not")
 
-rough = render("rough.exr", "--audit=30", "--samples", "4", "--max-error", "5", "--light-samples", "1")[3]
+rough = render("rough.exr", "--audit=100", "--samples", "4", "--max-error", "5", "--light-samples", "1")[3]
 fine = render("fine.exr", "--audit=30", "--samples", "600", "--max-error", "0.2", "--light-samples", "64")[3]
 for light in ("indirect", "direct", "picture"):
     t.expect(rough[light]["low"] > fine[light]["high"], f"{light}: few rays err by {rough[light]['mean']:.3f}, many by {fine[light]['mean']:.3f}")
-traced = render("traced.exr", "--audit=30", "--gi", "reference", "--samples", "256", "--ray-geometry", "scene")[3]
+traced = render("traced.exr", "--audit=100", "--gi", "reference", "--samples", "256", "--ray-geometry", "scene")[3]
 t.expect(traced["indirect"]["high"] < rough["indirect"]["low"] / 3, f"path tracing errs little: {traced['indirect']['mean']:.4f}")
 
 for method in ("radiosity", "atlas", "progressive"):

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reyes/app/frame/audit_pixels.h"
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
@@ -11,11 +14,12 @@ namespace {
 
 constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are shares of, as in `tomales chart`.
 /// Numbers of paths at each point in each of the two sets; a pixel sees several points. There are kFewestPaths at
-/// first, and then as many again until their noise is a third of the error.
+/// first, and then as many as their noise asks for until it is small beside the error.
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
-constexpr double kNoiseOfError = 1.0 / 3;
-constexpr int kTimesLightSamples = 16, kTimesLightSamplesOfBlocks = 4;
-constexpr size_t kPixelsPerBlock = 8;
+constexpr double kNoiseOfError = 0.4;
+constexpr int kMostGrowth = 4;  ///< No more than so many times the paths are added at once: a few tell little.
+constexpr int kTimesLightSamples = 8;
+constexpr size_t kPixelsPerBlock = 4;
 constexpr float kMeanOfNormal = 0.7979f;  ///< Mean absolute value of draws from the normal distribution.
 
 std::string percentOf(const ErrorEstimate& e) {
@@ -33,18 +37,18 @@ Audit::Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scen
       pixels_(chooseAuditPixels(layout, tiles, settings.pixels, settings.seed, stop)),
       samplesPerPixel_(layout.samplesPerPixel),
       stop_(stop),
-      smudges_(
-          layout, tiles, scene, shading,
-          {std::max(settings.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), settings.smudgeSizes,
-           settings.seed, kTimesLightSamplesOfBlocks * std::max({1, settings.lightSamples, shading.mostAreaSamples()})},
-          stop) {}
+      smudges_(layout, tiles, scene, shading,
+               {std::max(settings.pixels / kPixelsPerBlock, SmudgeEstimate::kFewestBlocks), settings.smudgeSizes,
+                settings.seed, std::max({1, settings.lightSamples, shading.mostAreaSamples()}), settings.leastSmudges},
+               stop) {}
 
 AuditReport Audit::of(const ShadeContext& context) {
   AuditReport out;
   picture_ = shade(context);
-  if (context.direct) out.lightSamples = findDirect(context);
+  const bool direct = context.direct && settings_.direct;
+  if (direct) out.lightSamples = findDirect(context);
   if (settings_.indirect) out.paths = 2 * findIndirect(context);
-  if (context.direct) out.direct = estimateError(errorsOf({&direct_}));
+  if (direct) out.direct = estimateError(errorsOf({&direct_}));
   if (settings_.indirect) out.indirect = estimateError(errorsOf({&indirect_}));
   const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_});
   out.pixels = errors.size();
@@ -95,13 +99,19 @@ int Audit::findDirect(ShadeContext context) {
 int Audit::findIndirect(ShadeContext context) {
   context.direct = false;
   indirect_.picture = colors(context);
-  const auto isEnough = [&] {
-    const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
-    return known.noise <= kNoiseOfError * known.mean || 2 * indirect_.rays > kMostPaths;
-  };
-  while ((indirect_.rays == 0 || !isEnough()) && !stop_.requested())
-    addSets(indirect_, context, std::max(kFewestPaths, indirect_.rays));
+  for (int missing = kFewestPaths - indirect_.rays; missing > 0 && !stop_.requested(); missing = missingPaths())
+    addSets(indirect_, context, missing);
   return indirect_.rays;
+}
+
+/// Returns how many more paths each set needs. The square of noise falls with their number.
+int Audit::missingPaths() const {
+  const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
+  const double allowed = kNoiseOfError * std::max(known.mean, settings_.leastError);
+  if (known.noise <= allowed) return 0;
+  const double growth = allowed > 0 ? known.noise * known.noise / (allowed * allowed) : kMostGrowth;
+  const double rays = std::min(growth, double{kMostGrowth}) * indirect_.rays;
+  return std::min(static_cast<int>(std::ceil(rays)), kMostPaths) - indirect_.rays;
 }
 
 /// Adds `rays` to each of the two sets.

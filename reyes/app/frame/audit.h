@@ -17,8 +17,13 @@ namespace tomales {
 struct AuditSettings {
   size_t pixels = 300;
   uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
-  bool indirect = true;  ///< The frame has indirect light.
-  int lightSamples = 0;  ///< The most that an audited picture has of each light; 0: as many as the lights ask.
+  bool direct = true;    ///< Direct light is audited, if the picture has any.
+  bool indirect = true;  ///< Indirect light is audited: the frame has some.
+  /// The audit's noise may be a share of the error that it finds, or of this one: nobody asks how much smaller errors
+  /// are.
+  double leastError = 0;
+  double leastSmudges = 0;  ///< The same for SmudgeEstimate::deviation.
+  int lightSamples = 0;     ///< The most that an audited picture has of each light; 0: as many as the lights ask.
   size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgeSettings::sizes.
 };
 
@@ -68,6 +73,7 @@ class Audit {
  private:
   int findDirect(ShadeContext context);
   int findIndirect(ShadeContext context);
+  int missingPaths() const;
   std::vector<vec3> colors(const ShadeContext& context) const;
   double pixelSampleError() const;
   void addSets(FoundLight& light, ShadeContext context, int rays) const;

@@ -17,7 +17,7 @@ constexpr int kCellsAcross = 8;  ///< Pixels that are looked at along each edge 
 constexpr int kPixelsOfBlock = kCellsAcross * kCellsAcross;
 /// Paths at each point in each of the two sets: so many at first, then as many again until they are quiet.
 constexpr int kFewestPathsOfBlocks = 4, kMostPathsOfBlocks = 64;
-constexpr double kQuietBlocks = 0.5;  ///< Share of the noise of the audit in what it finds.
+constexpr double kQuietBlocks = 0.8;  ///< The most noise of the audit, as a share of what it finds.
 constexpr int kBothHalves = 2;
 
 /// Returns the set of rays that has this pixel, in blocks of which some pixels are left out. Each set has pixels of its
@@ -68,6 +68,7 @@ SmudgeAudit::SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const
       across_((layout.padded.width() + kCellsAcross - 1) / kCellsAcross),
       covered_(static_cast<size_t>(across_) *
                static_cast<size_t>((layout.padded.height() + kCellsAcross - 1) / kCellsAcross)) {
+  if (settings.sizes == 0) return;
   std::mutex counting;
   parallelFor(layout.tileCount(), 1, [&](size_t t, size_t) {
     const auto tile = stop_.requested() ? nullptr : tiles(t);
@@ -212,8 +213,8 @@ std::vector<SmudgeEstimate> SmudgeAudit::of(const ShadeContext& given) {
     const std::vector<float> picture = shade(blocks, context, kBothHalves);
     if (blocks.rays == 0) addSets(blocks, context, kFewestPathsOfBlocks);
     SmudgeEstimate found = estimate(blocks, picture);
-    while (found.isKnown() && found.noise > kQuietBlocks * found.deviation && 2 * blocks.rays <= kMostPathsOfBlocks &&
-           !stop_.requested()) {
+    const auto quiet = [&] { return kQuietBlocks * std::max(found.deviation, settings_.leastDeviation); };
+    while (found.isKnown() && found.noise > quiet() && 2 * blocks.rays <= kMostPathsOfBlocks && !stop_.requested()) {
       addSets(blocks, context, blocks.rays);
       found = estimate(blocks, picture);
     }

@@ -21,7 +21,10 @@ constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
 constexpr double kMostFixed = 0.95;
 /// A cost that was measured at so many times a known setting tells how the cost changes.
 constexpr double kFarFromKnown = 4;
-constexpr int kFineSteps = 16;  ///< Steps of an octave where a time is to be used up.
+constexpr double kDeviation = 0.25;        ///< Standard deviation of the logarithm of the model's errors.
+constexpr double kLeastOfInterval = 0.05;  ///< The low end of an interval is at least this share of what was seen.
+constexpr double kNormalAt95 = 1.645;      ///< The 95th percentile of the normal distribution.
+constexpr int kFineSteps = 16;             ///< Steps of an octave where a time is to be used up.
 
 /// Returns the power of x by which y changes between two trials, within limits.
 double power(double x0, double y0, double x1, double y1, double least, double most) {
@@ -53,6 +56,14 @@ std::string optionsOf(const LightQuality& q) {
   if (q.maxError >= 0) add("--max-error", q.maxError);
   if (q.lightSamples > 0) add("--light-samples", q.lightSamples);
   return out;
+}
+
+double likelyError(double expected, double seen, double low, double high) {
+  if (!(expected > 0) || !(seen > 0)) return seen;
+  const double width = std::log(std::max(high, seen) / std::max(low, kLeastOfInterval * seen));
+  const double deviation = width / (2 * kNormalAt95);
+  return expected *
+         std::pow(seen / expected, kDeviation * kDeviation / (kDeviation * kDeviation + deviation * deviation));
 }
 
 CostLine::CostLine(double x0, double cost0, double x1, double cost1) : x0_(x0), cost0_(cost0) {
@@ -206,10 +217,13 @@ double ErrorModel::timesTarget(const LightQuality& q, const ErrorTarget& target)
   return std::max(error(q) / target.error, target.smudges > 0 ? smudges(q) / target.smudges : 0);
 }
 
-LightQuality ErrorModel::cheapest(const ErrorTarget& target) const {
+LightQuality ErrorModel::cheapest(const ErrorTarget& target, const std::optional<LightQuality>& gathered) const {
+  const auto costLeft = [&](const LightQuality& q) {
+    return gathered && q.hasRecordsOf(*gathered) ? shadeCost(q) : cost(q);
+  };
   return search([&](const LightQuality& a, const LightQuality& b) {
     const double timesA = timesTarget(a, target), timesB = timesTarget(b, target);
-    if (timesA <= 1 && timesB <= 1) return cost(a) < cost(b);
+    if (timesA <= 1 && timesB <= 1) return costLeft(a) < costLeft(b);
     return timesA < timesB;
   });
 }

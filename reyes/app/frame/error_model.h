@@ -13,6 +13,8 @@ struct LightQuality {
   float maxError = -1;   ///< Reach of records; negative: as the scene asks, or there are no records.
   int lightSamples = 0;  ///< Samples of each area light, where the eye looks; 0: as the light asks.
   bool operator==(const LightQuality&) const = default;
+  /// Returns true if both ask for the same records, which depend on nothing else.
+  bool hasRecordsOf(const LightQuality& q) const { return samples == q.samples && maxError == q.maxError; }
 };
 
 /// Returns them as options of the command line.
@@ -35,6 +37,10 @@ struct ErrorTarget {
   double smudges = 0;  ///< Deviation of smudges; 0: any.
   ErrorTarget operator*(double x) const { return {x * error, x * smudges}; }
 };
+
+/// Returns the most likely error where a model expects one, and an audit has seen another, with this 90 % interval. It
+/// is a mean of their logarithms, in which each has the weight of its certainty.
+double likelyError(double expected, double seen, double low, double high);
 
 /// An error of gathered light. Its square is the noise of rays, which falls with their number, plus the square of the
 /// error of interpolation, a power of maxError. It is taken from trials and kept within known limits of such errors, so
@@ -106,8 +112,9 @@ class ErrorModel {
   void correct(const QualityTrial& picture);
 
   /// Returns the quality that reaches the target at the least cost. If none does within the range in which the model
-  /// may be believed, the one that comes nearest.
-  LightQuality cheapest(const ErrorTarget& target) const;
+  /// may be believed, the one that comes nearest. `gathered`: the quality of records that there are, which cost
+  /// nothing.
+  LightQuality cheapest(const ErrorTarget& target, const std::optional<LightQuality>& gathered = {}) const;
   /// Returns the best quality that costs no more than `most`: the worse of mean error and smudges is least, and it has
   /// as many rays as the cost then leaves room for. If every quality costs more, the cheapest one.
   LightQuality best(double most) const;

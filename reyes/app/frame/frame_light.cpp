@@ -90,11 +90,14 @@ AuditSettings FrameLight::auditSettings(uint32_t seed) const {
   return settings;
 }
 
-AuditReport FrameLight::audit(uint32_t seed) {
+AuditReport FrameLight::audit(uint32_t seed, const ErrorTarget& matters) {
   const StageTimer timer(job_.stats(), "audit");
   job_.meter().begin("auditing");
-  return Audit(layout_, tiles_, job_.scene(), job_.shading(), auditSettings(seed), processStop())
-      .of(job_.shadeContext());
+  AuditSettings settings = auditSettings(seed);
+  settings.leastError = matters.error;
+  settings.leastSmudges = matters.smudges;
+  if (matters.smudges > 0 && job_.settings().quality.audit == 0) settings.smudgeSizes = 1;  // nothing asks for others
+  return Audit(layout_, tiles_, job_.scene(), job_.shading(), settings, processStop()).of(job_.shadeContext());
 }
 
 void FrameLight::tellAudit(const AuditReport& report) {

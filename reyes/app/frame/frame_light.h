@@ -30,8 +30,9 @@ class FrameLight {
   void gatherRecords() { gatherRecords({}, {}); }
   /// Returns the settings that `--audit` asks for, at pixels that this seed decides.
   AuditSettings auditSettings(uint32_t seed) const;
-  /// Measures the error that the picture will have. The tiles are read once.
-  AuditReport audit(uint32_t seed);
+  /// Measures the error that the picture will have. The tiles are read once. `matters`: smaller errors need not be told
+  /// from the audit's own noise.
+  AuditReport audit(uint32_t seed, const ErrorTarget& matters = {});
   /// Tells it: by a message, and in the headers of the Displays and the statistics.
   void tellAudit(const AuditReport& report);
 

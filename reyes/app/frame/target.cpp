@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/trials.h"
@@ -14,20 +15,37 @@ namespace tomales {
 namespace {
 
 constexpr int kMostAttempts = 3;
-constexpr double kMargin = 0.9;     ///< Share of the target that is aimed at: some pictures err more than a model says.
+constexpr double kMargin = 0.9;  ///< Share of the target that is aimed at: some pictures err more than a model says.
+/// Errors below this share of the target need not be told from the noise of an audit.
+constexpr double kMatters = 0.7;
+/// Trials for this target and finer ones have all rays, and fewer in proportion for others, to a limit.
+constexpr double kFinestTarget = 0.01;
+constexpr int kFewestInTrials = 4;
 constexpr double kTolerance = 1.1;  ///< A picture that errs by so many times the target is lit again.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
   return {settings.targetError, settings.targetSmudges > 0 ? settings.targetSmudges : settings.targetError};
 }
 
+int fewerRaysFor(double target) {
+  return std::clamp(static_cast<int>(std::lround(target / kFinestTarget)), 1, kFewestInTrials);
+}
+
 bool errorIsNear(const AuditReport& report, const ErrorTarget& target) {
   return !report.picture.tells() || report.picture.mean <= kTolerance * target.error;
 }
 
-bool smudgesAreNear(const AuditReport& report, const ErrorTarget& target) {
+/// A few blocks have most of the smudges, so that an audit tells them from the target only if they are far from it.
+bool smudgesAreFar(const AuditReport& report, const ErrorTarget& target) {
   const SmudgeEstimate* smudges = report.finestSmudges();
-  return !smudges || !smudges->tells() || smudges->deviation <= kTolerance * target.smudges;
+  return smudges && smudges->tells() && smudges->low > target.smudges &&
+         smudges->deviation > kTolerance * target.smudges;
+}
+
+/// Returns what to believe of an error of which the model expects this. Estimate: ErrorEstimate or SmudgeEstimate.
+template <class Estimate>
+double believed(double expected, double seen, const Estimate& audit) {
+  return audit.tells() ? likelyError(expected, seen, audit.low, audit.high) : std::min(expected, audit.high);
 }
 
 class TargetSearch {
@@ -40,7 +58,9 @@ class TargetSearch {
         log_(job_.log()) {}
 
   void run() {
-    const TrialSettings trialSettings{.seed = seedOfTrials(settings_),
+    const TrialSettings trialSettings{.fewerRays = fewerRaysFor(target_.error),
+                                      .matters = target_ * kMatters,
+                                      .seed = seedOfTrials(settings_),
                                       .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
     TrialsResult trials = makeTrials(light_, trialSettings);
     if (stopRequested()) return;
@@ -48,23 +68,33 @@ class TargetSearch {
     LightQuality quality = model.cheapest(target_ * kMargin);
     tellChoice(trials, quality);
     for (int attempt = 1;; ++attempt) {
-      job_.setQuality(quality);
-      light_.gather();
+      gather(quality, attempt == 1);
       if (stopRequested()) return;
-      const AuditReport report = light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)));
+      const AuditReport report =
+          light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)), target_ * kMatters);
       if (stopRequested()) return;
       // More rays in the picture do not quieten the audit.
-      const bool isNear = errorIsNear(report, target_) && smudgesAreNear(report, target_);
-      const SmudgeEstimate* smudges = report.finestSmudges();
-      model.correct({quality, report.indirect ? report.indirect->mean : 0, report.direct ? report.direct->mean : 0,
-                     smudges ? smudges->deviation : 0});
-      const LightQuality better = model.cheapest(target_ * kMargin);
+      const QualityTrial errors = believedErrors(model, quality, report);
+      const bool isNear = errorIsNear(report, target_) && !smudgesAreFar(report, target_) &&
+                          errors.smudges <= kTolerance * target_.smudges;
+      model.correct(errors);
+      const LightQuality better =
+          model.cheapest(target_ * kMargin, job_.method().caches ? std::optional(quality) : std::nullopt);
       if (isNear || attempt == kMostAttempts || better == quality) return finish(quality, report, attempt);
+      tellAgain(report, better);
       quality = better;
     }
   }
 
  private:
+  /// Keeps the records that there are if they are as asked: only lamps have other samples.
+  void gather(const LightQuality& quality, bool isFirst) {
+    if (!isFirst && job_.method().caches && quality.hasRecordsOf(job_.quality()))
+      return job_.setLightSamples(quality.lightSamples);
+    job_.setQuality(quality);
+    light_.gather();
+  }
+
   void tellChoice(const TrialsResult& trials, const LightQuality& quality) {
     const double expected = trials.model.error(quality), smudges = trials.model.smudges(quality);
     const std::string least =
@@ -81,6 +111,23 @@ class TargetSearch {
         fmt::format("{} for a mean error of {:.3g} % and smudges of {:.3g} %: trials in {} of {} buckets expect {}",
                     wordsFor(quality), 100 * target_.error, 100 * target_.smudges, trials.tried.size(),
                     trials.seen.size(), least));
+  }
+
+  static QualityTrial believedErrors(const ErrorModel& model, const LightQuality& quality, const AuditReport& report) {
+    QualityTrial out{quality};
+    if (report.indirect) out.indirect = believed(model.indirectError(quality), report.indirect->mean, *report.indirect);
+    if (report.direct) out.direct = believed(model.directError(quality), report.direct->mean, *report.direct);
+    if (const SmudgeEstimate* s = report.finestSmudges())
+      out.smudges = believed(model.smudges(quality), s->deviation, *s);
+    return out;
+  }
+
+  void tellAgain(const AuditReport& report, const LightQuality& better) {
+    const SmudgeEstimate* smudges = report.finestSmudges();
+    log_.report(Severity::Note, "target-again", {},
+                fmt::format("mean error {:.2g} %{}: the frame is lit again, with {}", 100 * report.picture.mean,
+                            smudges ? fmt::format(" and smudges of {:.2g} %", 100 * smudges->deviation) : "",
+                            optionsOf(better)));
   }
 
   void finish(const LightQuality& quality, const AuditReport& report, int attempts) {
@@ -121,7 +168,7 @@ void tellMissed(const AuditReport& report, const QualitySettings& settings, cons
   if (!errorIsNear(report, target))
     missed = fmt::format("a mean error of {:.3g} % was asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
                          100 * target.error, 100 * error.mean, 100 * error.low, 100 * error.high);
-  if (const SmudgeEstimate* s = report.finestSmudges(); !smudgesAreNear(report, target))
+  if (const SmudgeEstimate* s = report.finestSmudges(); smudgesAreFar(report, target))
     missed +=
         fmt::format("{}smudges of {:.3g} % were asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
                     missed.empty() ? "" : "; ", 100 * target.smudges, 100 * s->deviation, 100 * s->low, 100 * s->high);

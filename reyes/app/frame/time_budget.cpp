@@ -30,6 +30,7 @@ constexpr int kLightSamplesOfAudit = 16;  ///< Light samples of a picture whose 
 /// noise.
 constexpr int kMostCutOfLights = 4;
 constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
+constexpr int kFewerInBriefTrials = 4;
 
 class BudgetedFrame {
  public:
@@ -53,9 +54,14 @@ class BudgetedFrame {
   TrialsResult makeTrials() {
     writeSketch(light_);
     const auto remaining_s = [&] { return std::max(0.0, settings_.quality.timeBudget_s - job_.elapsed_s()); };
-    const TrialSettings trialSettings{CostUnit::Seconds, remaining_s() < kBrief_s, seedOfTrials(settings_),
-                                      [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
-                                      [=] { return kShareOfNarrowTrial * remaining_s(); }};
+    const bool isBrief = remaining_s() < kBrief_s;
+    const TrialSettings trialSettings{
+        .unit = CostUnit::Seconds,
+        .isBrief = isBrief,
+        .fewerRays = isBrief ? kFewerInBriefTrials : 1,
+        .seed = seedOfTrials(settings_),
+        .likely = [=](const ErrorModel& m) { return m.best(kShareToPlan * remaining_s()); },
+        .mostOfNarrow = [=] { return kShareOfNarrowTrial * remaining_s(); }};
     return tomales::makeTrials(light_, trialSettings);
   }
 

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "reyes/app/frame/audit.h"
 #include "reyes/app/frame/frame_stages.h"
+#include "reyes/base/morton.h"
 #include "reyes/base/rng.h"
 #include "reyes/base/stop.h"
 
@@ -21,25 +23,35 @@ constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWi
 constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
 constexpr LightQuality kBaseOfLights{0, -1, 4}, kFinerLights{0, -1, 16};
 /// One bucket of so many is tried, and no fewer than so many.
-constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
-constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
+constexpr size_t kBucketsPerTrial = 40, kFewestBuckets = 16;
 constexpr size_t kPixelsOfBriefTrials = 100;
+/// Paths at each point whose light stands in for that of records where only the error of lamps is asked. That error is
+/// a share of all light.
+constexpr int kPathsBesideLamps = 16;
 constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
 /// Records with a maxError below this share of the base's count as much narrower.
 constexpr float kMuchNarrower = 1 / 1.5f;
 
-/// Numbers, in order, of some of these buckets, chosen by a hash of their places.
+/// Numbers, in order, of some of these buckets, which are spread over the picture: one of each of equal pieces of
+/// Morton's curve, chosen by a hash of its place.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
-  std::vector<std::pair<uint32_t, size_t>> order;
+  std::vector<vec3> places;
   for (const size_t t : seen) {
     const PixelRect r = layout.rectOf(t);
-    order.emplace_back(hashCombine(static_cast<uint32_t>(r.x0), static_cast<uint32_t>(r.y0), seed), t);
+    places.emplace_back(r.x0, r.y0, 0);
   }
-  std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), std::max(kFewestBuckets, order.size() / kBucketsPerTrial)));
+  const std::vector<uint32_t> curve = mortonOrder(places);
+  const size_t count = std::min(seen.size(), std::max(kFewestBuckets, seen.size() / kBucketsPerTrial));
+  const auto order = [&](uint32_t i) {
+    return std::pair(hashCombine(static_cast<uint32_t>(places[i].x), static_cast<uint32_t>(places[i].y), seed), i);
+  };
   std::vector<size_t> out;
-  for (const auto& [hash, t] : order) out.push_back(t);
-  std::sort(out.begin(), out.end());
+  for (size_t piece = 0; piece < count; ++piece) {
+    const auto first = curve.begin() + static_cast<ptrdiff_t>(piece * seen.size() / count),
+               last = curve.begin() + static_cast<ptrdiff_t>((piece + 1) * seen.size() / count);
+    out.push_back(seen[*std::ranges::min_element(first, last, {}, order)]);
+  }
+  std::ranges::sort(out);
   return out;
 }
 
@@ -71,6 +83,7 @@ class Trials {
  public:
   Trials(const FrameLight& light, const TrialSettings& settings)
       : job_(light.job()),
+        frame_(light),
         settings_(settings),
         points_(pointsIn(light)),
         seen_(bucketsOf(points_)),
@@ -81,34 +94,44 @@ class Trials {
     const bool paths = job_.method().isReference, records = job_.method().caches;
     const LightQuality& base = paths ? kBaseOfPaths : records ? kBaseOfRecords : kBaseOfLights;
     const LightQuality& finer = paths ? kFinerPaths : records ? kFinerRecords : kFinerLights;
-    AuditSettings auditSettings = light_.auditSettings(settings_.seed);
-    auditSettings.lightSamples = finer.lightSamples;
-    auditSettings.smudgeSizes = kSmudgeSizesOfTrials;
-    if (settings_.isBrief) auditSettings.pixels = kPixelsOfBriefTrials;
-    Audit audit(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), auditSettings, processStop());
-    const QualityTrial first = trial(base, audit), second = trial(finer, audit);
-    const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords, audit)) : std::nullopt;
+    AuditSettings settings = frame_.auditSettings(settings_.seed);
+    settings.lightSamples = fewer(finer.lightSamples);
+    settings.leastError = settings_.matters.error;
+    settings.leastSmudges = settings_.matters.smudges;
+    settings.smudgeSizes = kSmudgeSizesOfTrials;
+    if (settings_.isBrief) settings.pixels = kPixelsOfBriefTrials;
+    if (records && settings.indirect) {
+      settings.direct = false;
+      recordAudit_.emplace(light_.layout(), light_.tiles(), job_.scene(), job_.shading(), settings, processStop());
+      settings.direct = true;
+      settings.indirect = false;
+    }
+    if (records) settings.smudgeSizes = 0;
+    audit_.emplace(frame_.layout(), frame_.tiles(), job_.scene(), job_.shading(), settings, processStop());
+    const QualityTrial first = trial(base), second = trial(finer);
+    const std::optional<QualityTrial> third = records ? std::optional(trial(kWiderRecords)) : std::nullopt;
     ErrorModel model(first, second, third);
-    if (records) tryNarrower(first, model, audit);
+    if (records) tryNarrower(first, model);
     std::vector<size_t> tried = some_;
     std::stable_sort(tried.begin(), tried.end(), [&](size_t a, size_t b) { return points_.at(a) > points_.at(b); });
     return {model, seen_, tried, audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
   }
 
  private:
-  void tryNarrower(const QualityTrial& base, ErrorModel& model, Audit& audit) {
+  void tryNarrower(const QualityTrial& base, ErrorModel& model) {
     const float maxError = settings_.likely(model).maxError;
     if (!(maxError > 0 && maxError < kMuchNarrower * base.quality.maxError)) return;
     LightQuality quality = base.quality;
     quality.maxError = maxError;
-    if (model.gatherCostOf(1 / inFrame(), quality) <= settings_.mostOfNarrow())
-      model.addNarrower(trialOf(quality, audit));
+    if (model.gatherCostOf(1 / inFrame(), quality) <= settings_.mostOfNarrow()) model.addNarrower(trialOf(quality));
   }
 
-  QualityTrial trial(LightQuality quality, Audit& audit) {
-    if (settings_.isBrief && quality.samples > 0) quality.samples /= kBriefness;
-    if (settings_.isBrief && quality.lightSamples > 0) quality.lightSamples /= kBriefness;
-    return trialOf(quality, audit);
+  int fewer(int rays) const { return rays > 0 ? std::max(1, rays / settings_.fewerRays) : rays; }
+
+  QualityTrial trial(LightQuality quality) {
+    quality.samples = fewer(quality.samples);
+    quality.lightSamples = fewer(quality.lightSamples);
+    return trialOf(quality);
   }
 
   /// Buckets of the frame for each that is tried.
@@ -116,30 +139,38 @@ class Trials {
     return static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
   }
 
-  QualityTrial trialOf(const LightQuality& quality, Audit& audit) {
+  QualityTrial trialOf(const LightQuality& quality) {
     QualityTrial out{quality};
     job_.setQuality(quality);
     const double gathering = costOf([&] { light_.gatherRecords(); });
     if (job_.services()) out.bounceCost = inUnit(job_.services()->bounceCost());
     out.gatherCost = inFrame() * std::max(0.0, gathering - out.bounceCost);
-    out.shadeCost = shadeCost(audit);
+    out.shadeCost = shadeCost();
     const double before_s = seconds();
-    const AuditReport report = audit.of(job_.shadeContext());
+    ShadeContext context = job_.shadeContext();
+    if (recordAudit_) context.auditPaths = kPathsBesideLamps;
+    addErrors(audit_->of(context), out);
+    if (recordAudit_) addErrors(recordAudit_->of(job_.shadeContext()), out);
     audit_s_ += seconds() - before_s;
+    return out;
+  }
+
+  static void addErrors(const AuditReport& report, QualityTrial& out) {
     if (report.indirect) out.indirect = report.indirect->mean;
     if (report.direct) out.direct = report.direct->mean;
     if (const SmudgeEstimate* smudges = report.finestSmudges()) out.smudges = smudges->deviation;
-    return out;
   }
 
   /// Returns the cost of shading. Neighbouring pixels share points, so that pixels alone cost more. The time of small
   /// pieces says little of the time of whole buckets, and pixels say more of their rays.
-  double shadeCost(const Audit& audit) {
+  double shadeCost() {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;
     for (const size_t t : some_) some += points_.at(t);
+    ShadeContext context = job_.shadeContext();
+    if (recordAudit_) context.indirect = false;  // lookups trace no rays
     if (settings_.unit == CostUnit::Seconds) return all / std::max(1.0, some) * secondsToShade(light_, some_);
-    return all / std::max(1.0, audit.pointCount()) * costOf([&] { audit.shade(job_.shadeContext()); });
+    return all / std::max(1.0, audit_->pointCount()) * costOf([&] { audit_->shade(context); });
   }
 
   double inUnit(const GiServices::BounceCost& cost) const {
@@ -157,10 +188,14 @@ class Trials {
   }
 
   FrameJob& job_;
+  const FrameLight& frame_;
   const TrialSettings settings_;
   const std::map<size_t, double> points_;
   const std::vector<size_t> seen_, some_;
   FrameLight light_;  ///< That of the buckets that are tried.
+  /// The error of records is found in the buckets that have them. Lamps and paths need none, and are audited in the
+  /// whole frame: a lamp's noise lies in its penumbras, which are in few buckets.
+  std::optional<Audit> audit_, recordAudit_;
   double audit_s_ = 0, light_s_ = 0, lightRays_ = 0;
 };
 

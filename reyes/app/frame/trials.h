@@ -15,8 +15,10 @@ enum class CostUnit { Rays, Seconds };
 
 struct TrialSettings {
   CostUnit unit = CostUnit::Rays;
-  bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
-  uint32_t seed = 0;     ///< Decides which buckets and pixels.
+  bool isBrief = false;   ///< Fewer pixels are audited: the frame has little time.
+  int fewerRays = 1;      ///< The trials have so many times fewer rays and light samples than the finest ones.
+  ErrorTarget matters{};  ///< Errors that are smaller need not be known; 0: all matter.
+  uint32_t seed = 0;      ///< Decides which buckets and pixels.
   /// Returns the quality that would be chosen from the first trials. If its records are much narrower than those of the
   /// trials, a trial of such records follows, because wide records do not tell how many narrow ones there are. The
   /// trial is left out if it is likely to cost more than mostOfNarrow().

@@ -46,6 +46,24 @@ TEST(ErrorModel, ReachesATargetWithFewerRaysThanEveryQualityThatAlsoDoes) {
       }
 }
 
+TEST(ErrorModel, KeepsRecordsThatThereAreWhereOnlyLampsErrTooMuch) {
+  const ErrorModel model = Frame().model();
+  const LightQuality gathered{1700, 0.71f, 4}, chosen = model.cheapest({0.015}, gathered);
+  EXPECT_LE(model.error(chosen), 0.015);
+  EXPECT_TRUE(chosen.hasRecordsOf(gathered)) << optionsOf(chosen);
+  EXPECT_FALSE(model.cheapest({0.015}).hasRecordsOf(gathered)) << "otherwise others are cheaper";
+  EXPECT_FALSE(model.cheapest({0.004}, gathered).hasRecordsOf(gathered)) << "they do not reach this target";
+}
+
+TEST(ErrorModel, BelievesAnAuditAsFarAsItIsCertain) {
+  EXPECT_NEAR(likelyError(0.01, 0.04, 0.04, 0.04), 0.04, 1e-9);
+  EXPECT_NEAR(likelyError(0.01, 0.04, 0.0001, 4), 0.01, 0.002);
+  const double width = std::exp(1.645 * 0.25);  // as certain as the model
+  EXPECT_NEAR(likelyError(0.01, 0.04, 0.04 / width, 0.04 * width), 0.02, 1e-6);
+  EXPECT_EQ(likelyError(0, 0.04, 0.01, 0.05), 0.04);
+  EXPECT_EQ(likelyError(0.01, 0, 0, 0.05), 0);
+}
+
 TEST(ErrorModel, AsksForMoreRaysOfATargetThatIsSmaller) {
   const ErrorModel model = Frame().model();
   double before = 0;
