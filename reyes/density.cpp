@@ -119,8 +119,10 @@ float DensityGrid::integral(const ivec3& cell, const vec3& origin, const vec3& d
 /// Calls visit(end, columnDensity) for pieces of the line, in order. J. Amanatides and A. Woo, "A Fast Voxel Traversal
 /// Algorithm for Ray Tracing", 1987, which steps over whole bricks that hold nothing.
 template <class Visit>
-void DensityGrid::walk(const vec3& from, const vec3& to, float t0, float t1, const Visit& visit) const {
-  const vec3 origin = transformPoint(indexFromObject_, from), direction = transformVector(indexFromObject_, to);
+void DensityGrid::walk(const vec3& objectOrigin, const vec3& objectDirection, float t0, float t1,
+                       const Visit& visit) const {
+  const vec3 origin = transformPoint(indexFromObject_, objectOrigin),
+             direction = transformVector(indexFromObject_, objectDirection);
   const vec3 inverse = 1.0f / direction;
   float t = t0;
   ivec3 cell(glm::floor(origin + t * direction));
