@@ -1,5 +1,5 @@
-// Private to gi: what a gather pass asks of a tile, phase by phase. It has only what makes a GatherPoint, a fifth of
-// the memory of the tile, which therefore need not stay in memory. Space: current.
+// Private to gi: what a gather pass asks of a tile, phase by phase. It keeps only what makes a GatherPoint. That takes
+// a fifth of the tile's memory, and the tile need not stay in memory. Space: current.
 #pragma once
 #include <atomic>
 
