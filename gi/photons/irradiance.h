@@ -81,7 +81,7 @@ using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N,
 /// `photons` needs normals and a channel kPower or kIndirectPower of three floats, or kPathPower. The result has the
 /// channels of irradianceChannels(); its disks, or balls, overlap enough to cover the surface, or fill the volume. No
 /// photons make an empty cloud. `wanted`: estimates are made only at photons that it accepts; empty: at all photons.
-/// `figures`: gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface part more
+/// `figures`: gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface separate more
 /// light from less, the estimate has the surface number kAcrossWalls; empty: walls are not known. `shown`: for the
 /// figures; empty: the picture is not known.
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
