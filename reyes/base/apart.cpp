@@ -37,7 +37,7 @@ void writeAll(int file, const std::string& text) {
   _exit(0);
 }
 
-/// Reads until the other side is closed. Returns false if it was still open after so many seconds.
+/// Reads until the other side is closed. Returns false if it was still open after `mostSeconds`.
 bool readAll(int file, int mostSeconds, std::string& out) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(mostSeconds);

@@ -21,8 +21,8 @@ constexpr int kRoughLines = 3;
 // Displaced borders that turn away from the eye reach out by this share of what others do, or of a pixel if that is
 // more. Past the horizon more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
-// Displaced borders reach out by at most so many times the width of their cell. It is narrow where it turns away from
-// the eye, at the outline: there the neighbour lies behind, and a body must not grow by what would close a crack.
+// Displaced borders reach out by at most this many times the width of their cell. A cell is narrow where it turns away
+// from the eye, at the outline: there the neighbour lies behind, and a body must not grow by what would close a crack.
 constexpr float kMostOfCell = 4;
 /// Raster coordinates up to this are on the lattice.
 constexpr float kFarthest_px = 4096;

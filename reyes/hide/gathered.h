@@ -85,7 +85,7 @@ struct alignas(64) Gathered {
   }
 
  private:
-  static constexpr int kRun = 4;  ///< A vector is worth its cost for at least so many cells.
+  static constexpr int kRun = 4;  ///< Least number of cells for which a vector is worth its cost.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };

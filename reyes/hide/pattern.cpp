@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// Numbers of patterns. 256 are so many that no repetition is seen. With very many samples a pixel has little error
+/// Limits on the number of patterns. With 256 no repetition is seen. With very many samples a pixel has little error
 /// that could repeat, and many patterns would fill the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 

@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-/// Coincident surfaces may be found so far apart, as a share of the depth range of a micropolygon, which is about a
-/// pixel wide: vertices are moved to the lattice, and depths are rounded.
+/// Greatest distance at which coincident surfaces may be found, as a share of the depth range of a micropolygon, which
+/// is about a pixel wide: vertices are moved to the lattice, and depths are rounded.
 constexpr float kSlackOfCell = 4e-3f;
 constexpr float kSideRounding = 1e-6f;
 

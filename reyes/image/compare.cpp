@@ -129,7 +129,7 @@ struct SmoothFigures {
   double smudges = 0, specks = 0;
 };
 
-/// Returns what shows on a smooth wall, in blocks of so many pixels along an edge. Both figures come from ratios of
+/// Returns what shows on a smooth wall, in blocks of `block` pixels along an edge. Both figures come from ratios of
 /// test and reference, so that a picture which is brighter as a whole has neither smudges nor specks.
 SmoothFigures smoothFigures(const Image& test, const Image& reference, int block) {
   constexpr double kSpeck = 0.2;  // A pixel that is off its block by more than this share is a speck.

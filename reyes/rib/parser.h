@@ -18,7 +18,8 @@ class Parser {
   /// The dictionary must outlive the parser: it belongs to the whole stream, archives included.
   Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log);
 
-  /// Returns the next good request, or nothing at the end of the stream, or if so much made no sense that it gives up.
+  /// Returns the next good request. Returns nothing at the end of the stream, and if it gives up because too much made
+  /// no sense.
   std::optional<Request> next();
   /// Moves to the end of the frame, without looking at its requests. Returns the number of worlds that begin there.
   int skipFrame();

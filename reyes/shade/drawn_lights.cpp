@@ -10,7 +10,7 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kNoLight = ~0U;
-/// A lamp with geometry takes up to so many of its samples on the average: near lamps have all of theirs, far ones one.
+/// A lamp with geometry takes at most this many of its samples on average: near lamps take all of theirs, far ones one.
 constexpr int kSamplesOfLight = 2;
 /// Hits of gather rays draw this share of what the eye's points do: many of them make one record.
 constexpr int kShareAtHits = 8;

@@ -106,7 +106,7 @@ LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* servi
   return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(inTree))};
 }
 
-/// Tells whether so many lights are drawn from, and do not all run.
+/// Tells whether a set of `count` lights is drawn from, instead of running all of them.
 bool isMany(size_t count, const BoundLight& light, int lightCut) {
   return count > (light.shadows ? kFewLights : kFewWithoutShadows) * static_cast<size_t>(lightCut);
 }

@@ -15,9 +15,9 @@ namespace tomales {
 struct BoundLight;
 struct BoundScene;
 
-/// A set has more lights than so many times the number that a point draws; fewer lights run as a whole. The second
-/// number holds for lights without shadows: a drawn light takes as long as three that cast shadows, or thirty that do
-/// not (docs/measured/rays.md).
+/// A set has more lights than this many times the number that a point draws; fewer lights all run. The second number
+/// holds for lights without shadows: a drawn light takes as long as three that cast shadows, or thirty that do not
+/// (docs/measured/rays.md).
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {
@@ -34,7 +34,7 @@ struct SharedSets {
   std::vector<int> setOf;  ///< The set of each light of the scene; -1 if there is none.
 };
 
-/// The first so many lights of a set.
+/// The first lights of a set.
 struct LightsOfSet {
   const LightSet* set;
   uint32_t count;

@@ -12,7 +12,7 @@ constexpr float kBehind = 0.1f;
 constexpr float kGrazing = 0.02f;
 /// Least squared distance, so that light is finite at a lamp.
 constexpr float kNearest = 1e-20f;
-/// A side of a division holds at least so many of its lamps; else the median divides, and the tree stays flat.
+/// Each side of a division holds at least this many lamps. Otherwise the median divides, so that the tree stays flat.
 constexpr size_t kLeastSide = 16;
 
 struct Refinable {

@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kMostNamed = 3;       ///< One message names no more surfaces.
 constexpr int64_t kFewLitPoints = 10;  ///< Fewer counted points say nothing about a picture.
 constexpr double kShareOfLitPoints = 0.5;
-/// One point of so many is counted, which tells a share of the picture as well as all do.
+/// One point in this many is counted, which tells a share of the picture as well as all points do.
 constexpr int kCounted = 16;
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
 

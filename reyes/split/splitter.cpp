@@ -15,14 +15,14 @@ constexpr int kMaxDepth = 48;
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
-constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
+constexpr int kRound_cells = 6;  ///< A disk of at most this many cells is shaded as one cell: only P varies over it.
 /// Greatest width of the bound of a dot, in edges of a micropolygon. The bound is 1.5 times as wide as the disk. A disk
 /// within it takes few cells however it is measured.
 constexpr float kDot = 4;
-/// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
+/// Lazy splitting halves a patch at most this often, and leaves a coarse piece if it then has this many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-/// A piece that so many halvings have not made a quarter as long is one across which the surface jumps.
+/// If this many halvings have not made a piece a quarter as long, the surface jumps across it.
 constexpr int kVainHalvings = 8;
 
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {

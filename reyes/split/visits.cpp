@@ -5,10 +5,11 @@
 namespace tomales {
 namespace {
 
-/// Limits of the pieces that one patch may visit: so many times those that cover the window once, and a number for
-/// small windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
-/// coordinates beyond the precision or range of floats, which no halving makes small, come near it. Patches of one
-/// object share what exceeds the least, or a mesh of them would take hours.
+/// Limits of the pieces that one patch may visit: a multiple of those that cover the window once, and a least number
+/// for small windows. A ground plane up to its horizon takes about ten times as many as cover the window, because its
+/// grids lie over each other there. Only coordinates beyond the precision or range of floats, which no halving makes
+/// small, come near the limit. Patches of one object share what exceeds the least number, because a mesh of many
+/// patches would take hours otherwise.
 constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 /// The cost of a blurred piece beyond its visit, if it may be seen all over the window: each sample there is tested

@@ -13,7 +13,7 @@ class Visits {
 
   /// Returns the budget of one of an object's `patches`.
   int64_t ofPatch(uint32_t patches) const;
-  /// Returns the cost of a blurred piece beyond its visit, of an object with so many key times.
+  /// Returns the cost of a blurred piece beyond its visit, of an object with this many key times.
   int64_t ofBlur(const Bound2& raster, size_t keyTimes) const;
   /// Returns the visits that a coarse piece is expected to take.
   double expected(const SubPatch& coarse) const;

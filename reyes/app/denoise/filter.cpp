@@ -13,8 +13,8 @@ using denoising::Color, denoising::Size, denoising::kBand, denoising::kNear, den
 
 constexpr std::array<float, 2> kWidths{0.5f, 1.0f};  ///< Widths of the filter: k of Rousselle et al.
 constexpr int kSmoothVariance = 2, kSmoothError = 4, kSmoothChoice = 1;
-/// A filter that is worse at a pixel than none, by so many times the variance around it, blurs something. Noise alone
-/// seems to say so once in very many pixels.
+/// A filter blurs something if its error at a pixel exceeds that of no filter by this many times the variance around
+/// it. Noise alone has that effect at very few pixels.
 constexpr float kBlurs = 4;
 
 /// Means over squares of 2 `reach` + 1 pixels, fewer at the edges.
@@ -76,7 +76,7 @@ Plane meansAround(const Plane& in, const Plane& near, const Size& size) {
   return out;
 }
 
-/// The error of each half's answer is its difference from the other half, less what is the noise of that.
+/// The error of each half's answer is its difference from the other half, less the noise of the other half.
 Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance, const Size& size) {
   Plane squares(size.count(), 0.0f);
   for (size_t c = 0; c < 3; ++c)

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kCellsAcross = 8;  ///< Pixels that are looked at along each edge of a block, one in each cell of a grid.
 constexpr int kPixelsOfBlock = kCellsAcross * kCellsAcross;
-/// Paths at each point in each of the two sets: so many at first, then as many again until they are quiet.
+/// Paths at each point in each of the two sets: the least number at first, which is then doubled until the sets are
+/// quiet.
 constexpr int kFewestPathsOfBlocks = 4, kMostPathsOfBlocks = 64;
 constexpr double kQuietBlocks = 0.5;  ///< Share of the noise of the audit in what it finds.
 constexpr int kBothHalves = 2;

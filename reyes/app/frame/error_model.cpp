@@ -19,7 +19,7 @@ constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
 constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
 /// The most of a cost that two trials may find to be fixed: the first also pays for what is read once.
 constexpr double kMostFixed = 0.95;
-/// A cost that was measured at so many times a known setting tells how the cost changes.
+/// A cost that was measured at this many times a known setting tells how the cost changes.
 constexpr double kFarFromKnown = 4;
 constexpr int kFineSteps = 16;  ///< Steps of an octave where a time is to be used up.
 

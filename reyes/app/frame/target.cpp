@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostAttempts = 3;
 constexpr double kMargin = 0.9;     ///< Share of the target that is aimed at: some pictures err more than a model says.
-constexpr double kTolerance = 1.1;  ///< A picture that errs by so many times the target is lit again.
+constexpr double kTolerance = 1.1;  ///< A picture is lit again if its error is this many times the target.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
   return {settings.targetError, settings.targetSmudges > 0 ? settings.targetSmudges : settings.targetError};

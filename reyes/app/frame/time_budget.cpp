@@ -15,16 +15,16 @@ namespace {
 constexpr double kShareToPlan = 0.96;  ///< Share of the time left that is planned.
 /// Share of the time left that a trial of narrow records, the first round, and shading that only measures may take.
 constexpr double kShareOfNarrowTrial = 0.1, kShareOfFirstRound = 0.15, kShareOfMeasuring = 0.2;
-/// The first round, and shading that only measures, have so many times fewer rays.
+/// The first round, and shading that only measures, have this many times fewer rays.
 constexpr int kFewerInFirst = 8;
 constexpr int kLeastRays = 20;  ///< The first round has at least these.
 constexpr int kMostRounds = 4;
 constexpr double kBetter = 0.95;      ///< Another round is worth it if the error falls to this share.
 constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if it falls to this share.
-/// A round has at most so many times the rays of the one before, which says what they cost.
+/// A round has at most this many times the rays of the one before, which tells what rays cost.
 constexpr int kMostGrowth = 12;
 constexpr double kShareOfProbe = 0.12;    ///< Share of the time left that a probe may take.
-constexpr size_t kBucketsOfProbe = 16;    ///< One bucket of so many tells what more rays cost.
+constexpr size_t kBucketsOfProbe = 16;    ///< One bucket in this many tells what more rays cost.
 constexpr int kLightSamplesOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
 /// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
 /// noise.

@@ -20,9 +20,9 @@ namespace {
 constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWiderRecords{150, 2, 4};
 constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
 constexpr LightQuality kBaseOfLights{0, -1, 4}, kFinerLights{0, -1, 16};
-/// One bucket of so many is tried, and no fewer than so many.
+/// One bucket in this many is tried, but no fewer than the second number.
 constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
-constexpr int kBriefness = 4;  ///< Brief trials have so many times fewer rays.
+constexpr int kBriefness = 4;  ///< Brief trials have this many times fewer rays.
 constexpr size_t kPixelsOfBriefTrials = 100;
 constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
 /// Records with a maxError below this share of the base's count as much narrower.

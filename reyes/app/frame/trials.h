@@ -31,7 +31,7 @@ struct TrialsResult {
   double audit_s = 0;         ///< Time that an audit of the frame may take.
   double raysPerSecond = 0;   ///< Rays per second on this machine now, for messages alone.
 
-  /// Returns in words how long so many rays take.
+  /// Returns in words how long this many rays take.
   std::string timeOf(double rays) const;
 };
 

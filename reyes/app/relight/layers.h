@@ -15,7 +15,7 @@ namespace tomales {
 /// colour for each square of `step` pixels, cut off at the right and below.
 constexpr size_t kBlockHeader = 8;
 
-/// The step of a coarse picture: it has one colour for each square of so many pixels.
+/// The step of a coarse picture, which has one colour for each square of this many pixels along an edge.
 constexpr int kCoarseStep = 16;
 
 class LayerStore {

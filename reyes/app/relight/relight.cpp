@@ -218,8 +218,8 @@ class RelightServer {
   }
 
   /// Returns the status as JSON after its length in 32 bits, and then new blocks of the layers. Without "last" these
-  /// are all new blocks, reduced to so many bytes. With it they are at full size, as many as the bytes hold, up to that
-  /// block.
+  /// are all new blocks, reduced to fit into "bytes". With it they are at full size, as many as "bytes" hold, up to
+  /// that block.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
     const size_t bytes =

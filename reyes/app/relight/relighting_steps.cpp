@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kPartsPerCheck = 4;  ///< One part of so many is compared with the sum of the layers.
+constexpr size_t kPartsPerCheck = 4;  ///< One part in this many is compared with the sum of the layers.
 
 }  // namespace
 

@@ -11,7 +11,7 @@ struct GeometrySettings {
   bool subdivide = false;
   float smooth_degrees = 45;
   bool keepsNormals = true;      ///< False: those of the file say nothing that its faces do not.
-  std::vector<vec3> faceColors;  ///< They count where the vertices of a mesh of so many faces have none.
+  std::vector<vec3> faceColors;  ///< Used if there is one for each face, and the vertices have no colours.
 };
 
 struct Geometry {

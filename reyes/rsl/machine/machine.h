@@ -12,8 +12,9 @@
 
 namespace tomales::compiler {
 
-/// Limits the turns of all loops of one run, over its whole batch. More is reported as an endless loop, and the batch
-/// gets what the shader had so far. 0 means no limit. The default ends after seconds, not hours.
+/// Limits the turns of all loops of one run, over its whole batch. More turns are reported as an endless loop, and the
+/// batch gets the values that the shader has computed until then. 0 means no limit. The default ends after seconds, not
+/// hours.
 void setLoopLimit(int64_t iterations);
 
 /// `grid.params` are those of code.parameters, in their order, and grid.count must be greater than 0. Problems are
