@@ -1,4 +1,4 @@
-// Trials in a few buckets of a frame: what error its light has with some settings, and what it costs.
+// Trials in a few buckets of a frame, which measure the error and the cost of its light under some settings.
 #pragma once
 #include <limits>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// Rays are the same in every run, seconds are those of this machine now.
+/// The number of rays is the same in every run; seconds depend on the machine and its load.
 enum class CostUnit { Rays, Seconds };
 
 struct TrialSettings {
@@ -18,7 +18,7 @@ struct TrialSettings {
   bool isBrief = false;  ///< A quarter of the rays, and fewer pixels: the frame has little time.
   uint32_t seed = 0;     ///< Decides which buckets and pixels.
   /// Returns the quality that would be chosen from the first trials. If its records are much narrower than those of the
-  /// trials, a trial of such records follows, because wide records do not tell how many narrow ones there are. The
+  /// trials, a trial of such records follows, because wide records do not show how many narrow ones a frame needs. The
   /// trial is left out if it is likely to cost more than mostOfNarrow().
   std::function<LightQuality(const ErrorModel&)> likely;
   std::function<double()> mostOfNarrow = [] { return std::numeric_limits<double>::infinity(); };
@@ -37,7 +37,7 @@ struct TrialsResult {
 
 /// Gathers in these buckets alone, and returns the wall time that it took as the costs of the trial.
 QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> which, const LightQuality& quality);
-/// Shades these tiles as the picture will be, forgets them, and returns the wall time that it took.
+/// Shades these tiles as for the picture, forgets them, and returns the wall time that it took.
 double secondsToShade(const FrameLight& light, std::span<const size_t> which);
 
 /// Lights and audits the buckets two to four times. The gathered records stay with the job until its next setQuality().
