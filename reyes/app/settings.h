@@ -57,8 +57,8 @@ struct LightSettings {
   std::optional<uint32_t> seed;  ///< Seed of the random numbers of light alone; if not given, PictureSettings::seed.
   int64_t photons = 1'000'000;   ///< Number to emit for --gi atlas and the caustics of the reference; the most for
                                  ///< --gi progressive.
-  double photonNoise = 0;  ///< --gi progressive stops when the noise of the photons is below this share of their light.
-  bool hitList = true;     ///< Rays leave surfaces by lists of hits; if false, by a bias alone (Ray::offset).
+  double photonNoise = 0;        ///< Counting photons stops when their noise is below this share of their light.
+  bool hitList = true;           ///< Rays leave surfaces by lists of hits; if false, by a bias alone (Ray::offset).
   std::optional<bool> fullGeometry;  ///< Rays see displaced micropolygons; if not given, for the reference alone.
 };
 

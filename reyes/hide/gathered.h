@@ -1,5 +1,5 @@
-// Private to the hider: the values of points to shade, read from the lattice of a grid and derived for many points at
-// once.
+// Private to the hider: reads the values of points to shade from the vertices of a grid, and derives others for many
+// points at once.
 #pragma once
 #include "reyes/grid.h"
 #include "reyes/points.h"
