@@ -37,9 +37,8 @@ struct LogEntry {
   std::string code;     ///< Stable short name, e.g. "rib-unknown-request".
   std::string message;  ///< Says what was wrong, with the object's name, and what was done instead.
   SourceLoc where;
-  int count = 1;  ///< Number of times that the message was reported.
-  std::vector<SourceLoc>
-      places{};  ///< The first places that reported it, `where` among them; at most Log::kMostPlaces.
+  int count = 1;                    ///< Number of times that the message was reported.
+  std::vector<SourceLoc> places{};  ///< Its first places, `where` among them; at most Log::kMostPlaces.
 };
 
 class Log {

@@ -1,7 +1,7 @@
 // Structures to bytes and back, for files. A type is packed by one list of its fields that serves both ways:
 //   template <class A> void fields(A& a, Lens& x) { auto& [radius, name] = x; each(a, radius, name); }
 // The structured binding makes the compiler stop at a structure that has gained a field which the list lacks.
-//   Packer appends to bytes
+//   Packer      appends to bytes
 //   Unpacker    takes from bytes; `damaged` once they do not fit
 //   ContentSum  a number that changes with the values
 //   SchemaSum   a number that changes with the lists, so that builds that differ do not read each other's files
