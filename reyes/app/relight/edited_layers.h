@@ -13,8 +13,7 @@ constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 
 struct RelitLayer {
   std::string name;
-  std::optional<std::string>
-      lights;  ///< The group whose light it shows; an empty name: no light; not given: all lights.
+  std::optional<std::string> lights;  ///< The group whose light it shows; empty: no light; not given: all lights.
   bool indirect = true;
   std::vector<std::string> handles{};  ///< Names of the group's lights.
   LayerParts parts{};
