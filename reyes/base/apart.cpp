@@ -16,7 +16,7 @@
 namespace tomales {
 namespace {
 
-constexpr char kWhole = '\n';  ///< Follows the text: a process that ends in some other way does not write it.
+constexpr char kWhole = '\n';  ///< Ends the text. A process that crashes does not write it.
 
 void writeAll(int file, const std::string& text) {
   for (size_t at = 0; at < text.size();) {

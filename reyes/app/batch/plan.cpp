@@ -40,7 +40,7 @@ bool isPlainName(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.front() != '-' && std::all_of(name.begin(), name.end(), plain);
 }
 
-/// Kahn's order; tasks that are ready at the same time keep their order.
+/// Returns the tasks in topological order (Kahn's algorithm). Tasks that are ready at the same time keep their order.
 std::vector<BatchTask> inOrder(const BatchPlan& plan) {
   std::map<std::string, std::vector<size_t>> followers;
   std::vector<size_t> missing(plan.tasks.size());

@@ -68,7 +68,8 @@ std::vector<std::string> jobsOf(const BatchPlan& plan) {
   return out;
 }
 
-/// Returns a plan of these tasks alone: that of a long animation has many megabytes, which each task would read.
+/// Returns a plan of these tasks alone, because the plan of a long animation has many megabytes, which each task would
+/// read.
 BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
   BatchPlan out{plan.folder() / (array.name + ".json"), plan.workingFolder, {}, {}};
   for (const BatchTask* t : array.tasks) {
@@ -104,7 +105,7 @@ exit $code
                            quoted(partOfPlan(plan, array).file.string()), kMostAttempts, kRequeue);
 }
 
-/// Tasks that are not done, without needs that are.
+/// Returns the tasks that are not done, without their needs that are done.
 std::vector<BatchTask> wantedOf(const BatchPlan& plan) {
   const std::vector<TaskState> states = statesOf(plan);
   std::set<std::string> done;

@@ -108,8 +108,8 @@ class Page : Markup {
     return seconds.has_value();
   }
 
-  /// Shows the differences of methods. The interval of the difference tells whether a method is worse: the noise of the
-  /// reference, which all share, makes the interval of each method wider than that.
+  /// Shows the differences of methods. The interval of a difference shows whether a method is worse. The interval of
+  /// each method is wider, because it includes the noise of the reference, which all methods share.
   void differences() {
     const ChartPoint* best = mostAccurate(r_, r_.curves.size());
     if (!best || r_.curves.size() < 2) return;

@@ -90,7 +90,7 @@ class StabilityPage : Markup {
     return nullptr;
   }
 
-  /// Shows the truths, and under them, method by method, where pictures are wrong.
+  /// Shows the truths and, below them, error maps method by method.
   void pictures(const StabilityCurve& c, size_t scene) {
     put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>",
         c.scene.values.size());

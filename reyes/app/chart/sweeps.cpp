@@ -10,7 +10,8 @@ using Arguments = std::vector<std::string>;
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 constexpr const char* kAtlasName = "atlas";
 
-/// Rays of a record and the allowed error of its use: neither alone brings the error down for long.
+/// Rays of a record and the allowed error of its use. Both vary, because changing only one soon stops reducing the
+/// error.
 struct GatherStep {
   const char *samples, *maxError, *photons;
 };
@@ -22,7 +23,7 @@ constexpr GatherStep kGatherSteps[] = {{"32", "4", "30000"},
 
 void add(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// `coarser` multiplies the error allowed.
+/// `coarser` multiplies the allowed error.
 ChartCurve gatherCurve(const std::string& name, const Arguments& method, double coarser = 1) {
   ChartCurve out{name, {}};
   for (const GatherStep& s : kGatherSteps) {
@@ -33,7 +34,7 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
   return out;
 }
 
-/// Paths bring what photons do not, so both grow.
+/// Paths carry light that photons do not, so the numbers of both grow.
 ChartCurve tracedCurve() {
   constexpr const char *kPaths[] = {"4", "16", "64", "128", "256"},
                        *kPhotons[] = {"30000", "100000", "300000", "1000000", "3000000"};

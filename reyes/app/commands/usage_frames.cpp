@@ -159,7 +159,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = relightFirst(in.relight); });
 }
 
-/// Returns the words that the user gave for some options, as they would be written again.
+/// Returns some options as the user wrote them, so that they can be written again.
 std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   std::vector<std::string> out;
   for (const CLI::Option* o : options) {
@@ -173,7 +173,7 @@ std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   return out;
 }
 
-/// Returns the options that `add` gives to the command.
+/// Returns the options that `add` adds to the command.
 template <class Add>
 std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
   const auto before = app.get_options();

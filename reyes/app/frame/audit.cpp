@@ -9,9 +9,9 @@
 namespace tomales {
 namespace {
 
-constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are shares of, as in `tomales chart`.
-/// Numbers of paths at each point in each of the two sets; a pixel sees several points. There are kFewestPaths at
-/// first. Their number is then doubled until their noise is a third of the error.
+constexpr float kAuditFloor = 0.01f;  ///< Added to the divisor of relative errors, as in `tomales chart`.
+/// Numbers of paths at each point in each of the two sets; a pixel sees several points. The number is kFewestPaths at
+/// first, and is doubled until their noise is a third of the error.
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 1.0 / 3;
 constexpr int kTimesLightSamples = 16, kTimesLightSamplesOfBlocks = 4;

@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Returns in words which plane of the view has all of `bound` on its wrong side. oneSided: Sides 1 hides something.
+/// Returns in words which side of the view `bound` is outside of. oneSided: Sides 1 hides something.
 std::string sideOf(const Bound3& bound, const Camera& camera, bool oneSided) {
   if (bound.hi.z < camera.nearClip())
     return bound.hi.z < 0 ? "behind the camera, which looks along +z" : "nearer than the near clipping plane";

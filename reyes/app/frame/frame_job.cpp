@@ -83,7 +83,7 @@ void FrameJob::prepareRays() {
 void FrameJob::findOpenings() {
   if (!wantsSkyPortals(scene_, *shading_)) return;
   const StageTimer timer(stats_, "raytrace");
-  // Whoever shades the shot chooses displacements again.
+  // The command that shades the shot chooses displacements again.
   std::vector<std::shared_ptr<const Attributes>> ofGroups, ofObjects;
   for (const ShadeGroup& g : scene_.groups) ofGroups.push_back(g.attributes);
   for (const Object& o : scene_.objects) ofObjects.push_back(o.attributes);

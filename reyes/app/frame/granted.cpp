@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// The rest of the granted memory is for what --memory-limit does not bound.
+/// The rest of the granted memory is for data that --memory-limit does not bound.
 constexpr double kShareOfMemory = 0.8;
 constexpr int64_t kMegabyte = 1 << 20;
 

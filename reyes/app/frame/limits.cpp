@@ -17,14 +17,14 @@ constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
-constexpr int64_t kFewStarts = 10'000;  // Rays that start fewer times say nothing about the whole.
+constexpr int64_t kFewStarts = 10'000;  // Fewer starts of rays say nothing about the whole.
 constexpr size_t kFewRecords = 32;      // Fewer records say nothing about the whole.
 
 }  // namespace
 
 void warnOfFloatRange(const Scene& scene, Log& log) {
-  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. The error
-  // along the depth moves nothing in the picture.
+  // Object to camera is one matrix, whose translation is the sum of two nearly opposite ones of about this length. The
+  // error along the depth moves nothing in the picture.
   const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
   const float lost = away * std::numeric_limits<float>::epsilon();
   const Camera camera(scene.options);

@@ -14,7 +14,7 @@ namespace tomales {
 namespace {
 
 constexpr int kMostAttempts = 3;
-constexpr double kMargin = 0.9;     ///< Share of the target that is aimed at: some pictures err more than a model says.
+constexpr double kMargin = 0.9;     ///< Share of the target to aim at: some pictures have larger errors than predicted.
 constexpr double kTolerance = 1.1;  ///< A picture is lit again if its error is this many times the target.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
@@ -53,7 +53,7 @@ class TargetSearch {
       if (stopRequested()) return;
       const AuditReport report = light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)));
       if (stopRequested()) return;
-      // More rays in the picture do not quieten the audit.
+      // More rays in the picture do not reduce the noise of the audit.
       const bool isNear = errorIsNear(report, target_) && smudgesAreNear(report, target_);
       const SmudgeEstimate* smudges = report.finestSmudges();
       model.correct({quality, report.indirect ? report.indirect->mean : 0, report.direct ? report.direct->mean : 0,

@@ -20,15 +20,15 @@ namespace {
 constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWiderRecords{150, 2, 4};
 constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
 constexpr LightQuality kBaseOfLights{0, -1, 4}, kFinerLights{0, -1, 16};
-/// One bucket in this many is tried, but no fewer than the second number.
+/// One bucket in kBucketsPerTrial is tried, but at least kFewestBuckets.
 constexpr size_t kBucketsPerTrial = 16, kFewestBuckets = 8;
 constexpr int kBriefness = 4;  ///< Brief trials have this many times fewer rays.
 constexpr size_t kPixelsOfBriefTrials = 100;
-constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
+constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Blocks larger than the smallest lie in several buckets.
 /// Records with a maxError below this share of the base's count as much narrower.
 constexpr float kMuchNarrower = 1 / 1.5f;
 
-/// Numbers, in order, of some of these buckets, chosen by a hash of their places.
+/// Returns some of these buckets in order, chosen by a hash of their places.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
   std::vector<std::pair<uint32_t, size_t>> order;
   for (const size_t t : seen) {
@@ -111,7 +111,7 @@ class Trials {
     return trialOf(quality, audit);
   }
 
-  /// Buckets of the frame for each that is tried.
+  /// Returns the number of buckets of the frame for each that is tried.
   double inFrame() const {
     return static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
   }
@@ -132,8 +132,8 @@ class Trials {
     return out;
   }
 
-  /// Returns the cost of shading. Neighbouring pixels share points, so that pixels alone cost more. The time of small
-  /// pieces says little of the time of whole buckets, and pixels say more of their rays.
+  /// Returns the cost of shading. Single pixels cost more than whole buckets, where neighbours share points. Time is
+  /// measured on whole buckets, because small pieces say little about it; rays are counted at the audit's pixels.
   double shadeCost(const Audit& audit) {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;

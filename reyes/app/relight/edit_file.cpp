@@ -48,7 +48,7 @@ std::string requestsOf(const EditState& state, const std::string& object, const 
   return fmt::format("Attribute \"identifier\" \"name\" [{}]\n", quoted(object)) + out;
 }
 
-/// Takes the requests of an edit file as JSON, which is then checked like that of a page.
+/// Converts the requests of an edit file to JSON, which is then checked like the JSON of a page.
 class StateReader : public RiSink {
  public:
   StateReader(const Editable& editable, Json& json) : editable_(editable), json_(json) {}

@@ -20,7 +20,7 @@ constexpr size_t kMostInline = 2000;
 
 bool isGltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; }
 
-/// Files for printers have z up; Assimp turns other formats that say so.
+/// Formats for 3D printers have z up; other formats that state their axis are turned by Assimp.
 mat4 worldFromModel(const Settings& settings) {
   const std::string ending = endingOf(settings.model);
   const bool zUp = settings.up == "z" || (settings.up.empty() && (ending == ".stl" || ending == ".3mf"));
