@@ -11,8 +11,8 @@
 namespace tomales {
 namespace {
 
-/// Tells what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends fields
-/// (shader_api.h), so a larger struct of the same ABI starts with ours.
+/// Returns what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends
+/// fields (shader_api.h), so a larger struct of the same ABI starts with ours.
 template <class Versioned>
 std::string otherVersion(const Versioned* v) {
   if (!v) return "is NULL";
@@ -24,7 +24,7 @@ std::string otherVersion(const Versioned* v) {
       v->abi, v->structBytes, TM_SHADER_ABI, sizeof(Versioned));
 }
 
-/// Tells what a shader of our ABI lacks; empty if it lacks nothing.
+/// Returns what a shader of our ABI lacks; empty if it lacks nothing.
 std::string lackOf(const TmShader& s) {
   if (!s.name || !*s.name) return "a name";
   if (!s.shade) return "a function";
