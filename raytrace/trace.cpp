@@ -89,8 +89,8 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
     if (o.solid >= 0 && o.attributes->areaLight >= 0)
       log.report(Severity::Warning, "light-in-solid", o.where,
                  objectName(o) +
-                     ": part of a solid and of an area light: it shines from the whole of its surface, also from "
-                     "where the solid takes it away");
+                     ": it is part of a solid and an area light: it shines from its whole surface, also where the "
+                     "solid removes it");
 }
 
 bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found,

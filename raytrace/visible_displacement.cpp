@@ -171,7 +171,8 @@ class Chooser {
 
   void report(const std::vector<size_t>& left) const {
     const Object& o = scene_.objects[static_cast<size_t>(patches_[left.front()].front().object)];
-    const std::string others = left.size() > 1 ? fmt::format(", nor those of {} further objects", left.size() - 1) : "";
+    const std::string others =
+        left.size() > 1 ? fmt::format(", nor those of {} more groups of objects", left.size() - 1) : "";
     log_.report(Severity::Warning, "trace-displacement", o.where,
                 fmt::format("{}: rays do not see its displacement of {:.0f} pixels{}, because that takes more polygons "
                             "than the picture has pixels; shadows are those of the smooth surface. Attribute "

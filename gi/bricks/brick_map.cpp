@@ -28,7 +28,7 @@ struct BrickMap::Sum {
 };
 
 BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)), width_(widthOf(channels_)) {
-  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats a point", kMostWidth));
+  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats per point", kMostWidth));
   BrickSettings settings;
   settings.maxError = 0;
   tree_ = buildBricks(cloud, settings, [&](const Brick& brick) {
@@ -197,7 +197,8 @@ BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channel
 
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path,
                           const MadeFrom& madeFrom) {
-  if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+  if (cloud.width() > kMostWidth)
+    throw FileError(fmt::format("\"{}\": more than {} floats per point", path, kMostWidth));
   return write(cloud, dataOf(cloud.channels), settings, path, madeFrom);
 }
 

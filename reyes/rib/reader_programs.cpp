@@ -98,7 +98,7 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
   auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
   if (budget == budget_ && !spend(kProceduralCost))
     return report(Severity::Missing, "rib-archive-recursion", r,
-                  "procedurals within procedurals or archives stand for too much; ignored");
+                  "procedurals within procedurals or archives stand for more than the limit; ignored");
   builder_.addProcedural(
       bound,
       [readNow, around = proceduralContext(), place = builder_.place(), budget] {

@@ -161,9 +161,8 @@ void LightUse::warnOfUseless(const BoundScene& scene) const {
     const Use& use = uses_[k];
     if (!use.asked || use.comes || !scene.lights[k] || !isDirect(*scene.lights[k])) continue;
     const BoundShader& light = *scene.lights[k]->bound;
-    scene.log.report(
-        Severity::Note, "light-useless", light.where,
-        fmt::format("{} comes to nothing that the camera sees: {}", light.user, whyUseless(scene, use, k)));
+    scene.log.report(Severity::Note, "light-useless", light.where,
+                     fmt::format("{} reaches nothing that the camera sees: {}", light.user, whyUseless(scene, use, k)));
   }
 }
 

@@ -97,9 +97,11 @@ class BatchRun {
     auto plan = makePlan(command_.plan, log_);
     if (!plan) return std::nullopt;
     if (command_.plan.tileCount() > 1 && !command_.onSlurm && static_cast<int>(plan->pictures.size()) >= processes())
-      log_.report(Severity::Note, "batch-tiles-cost", {},
-                  fmt::format("--tiles: {} frames are enough for {} at a time, and frames in tiles take more CPU time",
-                              plan->pictures.size(), processes()));
+      log_.report(
+          Severity::Note, "batch-tiles-cost", {},
+          fmt::format(
+              "--tiles: {} frames keep {} tasks at a time busy without tiles, and frames in tiles take more CPU time",
+              plan->pictures.size(), processes()));
     if (command_.onSlurm) {
       checkSlurm(command_.slurm);
       refuseIfOnCluster(*plan);

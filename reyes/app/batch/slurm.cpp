@@ -38,7 +38,7 @@ std::string outputOf(const std::vector<std::string>& command, int& code) {
     throw FileError("there is no \"" + command.front() +
                     "\" here: --engine slurm needs Slurm's programs (Debian: slurm-client), --engine local does not");
   int ends[2], problem = 0;
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw FileError("no pipe can be made");
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw FileError("a pipe cannot be made");
   const pid_t child = startChild({*program, command, {{ends[1], 1}, {ends[1], 2}}}, problem);
   ::close(ends[1]);
   std::string out;
@@ -81,7 +81,7 @@ BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
 
 std::string scriptOf(const BatchPlan& plan, const JobArray& array, const SlurmOptions& options) {
   std::string out = fmt::format(
-      "#!/bin/bash\n# Tasks of {} for Slurm. A task ends with exit code 75 when it shall begin again.\n"
+      "#!/bin/bash\n# Tasks of {} for Slurm. A task ends with exit code 75 if it is to begin again.\n"
       "#SBATCH --job-name={}\n#SBATCH --array=0-{}{}\n#SBATCH --ntasks=1 --cpus-per-task={}\n"
       "#SBATCH --requeue --open-mode=append --signal=B:TERM@60\n#SBATCH --output={}\n",
       plan.file.string(), array.name, array.tasks.size() - 1,

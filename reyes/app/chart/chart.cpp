@@ -166,7 +166,7 @@ class Chart {
     const auto image = readImage(run->picture, badBatch_);
     if (!image) return false;
     if (!reference_.add(*image)) {
-      badBatch_ = "\"" + run->picture + "\" has another size than the batches before it";
+      badBatch_ = "\"" + run->picture + "\" differs in size from the batches before it";
       return false;
     }
     const double noise = reference_.noiseFloor();  // infinite with one batch

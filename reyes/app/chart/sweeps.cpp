@@ -62,8 +62,8 @@ ChartCurve varied(const std::string& name, const Arguments& fixed, const std::st
   return out;
 }
 
-const char *kIndirect = "lamps whose light surfaces send on to each other",
-           *kDirect = "lamps, or surfaces that shine of themselves";
+const char *kIndirect = "lamps, and surfaces that reflect their light to each other",
+           *kDirect = "lamps, or surfaces that glow";
 
 const Arguments kPixelSamples{"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"},
     kFilterWidths{"4", "2", "1.5", "1", "0.7", "0.5", "0.25"};
@@ -147,7 +147,7 @@ std::vector<ChartSweep> allSweeps() {
         varied("regular", {std::string(kPrelude) + "Hider \"hidden\" \"int jitter\" 0"}, "--pixel-samples",
                kPixelSamples)}},
       {"shadowsamples",
-       "samples of lights that have an extent",
+       "samples of area lights and skies",
        kDirect,
        {"--gi", "none"},
        {"--light-samples", "256"},
@@ -181,7 +181,7 @@ std::vector<ChartSweep> allSweeps() {
        {varied("hit list", {}, tessellation, kTessellations),
         varied("bias alone", {"--no-hit-list"}, tessellation, kTessellations)}},
       {"offset",
-       "how far what rays meet may be from what the eye sees, in units of the scene",
+       "distance that may lie between what rays meet and what the eye sees, in units of the scene",
        kIndirect,
        {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)},

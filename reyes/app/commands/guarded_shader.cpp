@@ -93,7 +93,7 @@ class GuardedBatch {
       if (!a.isFinite(active_)) noteFault("leaves NaN or infinity in " + a.name());
     }
     if (watched.real->kind == TM_SURFACE && (watched.real->capabilities & TM_KEEPS_OPACITY) && !keepsOpacity())
-      noteFault("has another Oi than Os, and has declared TM_KEEPS_OPACITY");
+      noteFault("writes another Oi than Os, but has declared TM_KEEPS_OPACITY");
   }
 
   TmGrid grid;

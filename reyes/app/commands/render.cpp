@@ -85,7 +85,7 @@ class RenderRun {
                   "none of the frames that --frames names is in the scene");
     if (rendered_ > 0 && namesPicture(settings_.picture.output) && !outputUsed_)
       log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.picture.output), 0},
-                  "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
+                  "not written: -o replaces a picture, and the Displays of the scene are all maps");
     report_.finish();
     if (const int code = interruptExitCode()) return code;
     const ExitCode code = exitCodeOf(log_, settings_.report.strict);

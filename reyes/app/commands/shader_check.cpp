@@ -87,7 +87,7 @@ class Check {
     dark.illumination = Illumination::None;
     run(dark);
     for (int i = 0; i < kPoints; ++i)
-      if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, and has not declared TM_EMITS");
+      if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, but has not declared TM_EMITS");
   }
 
   void checkEvenness() const {

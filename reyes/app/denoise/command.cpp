@@ -77,7 +77,7 @@ Image readHalf(const std::string& file) {
 void refuseStrangers(const Image& a, const Image& b, const DenoiseCommand& command) {
   const auto refuse = [&](const std::string& why) {
     throw FileError(
-        fmt::format("\"{}\" and \"{}\" are no two pictures of one frame: {}", command.first, command.second, why));
+        fmt::format("\"{}\" and \"{}\" are not two pictures of one frame: {}", command.first, command.second, why));
   };
   if (a.width != b.width || a.height != b.height || a.originX != b.originX || a.originY != b.originY)
     refuse(

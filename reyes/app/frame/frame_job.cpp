@@ -54,7 +54,7 @@ void FrameJob::warnAboutPixels() const {
     if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
   if (!outside.empty())
     log_.report(Severity::Warning, "pixel-outside", {},
-                fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
+                fmt::format("--pixel: {} lies outside of the picture: nothing can be printed for it", outside));
 }
 
 FrameJob::~FrameJob() = default;

@@ -46,7 +46,7 @@ RenderSettings asGranted(RenderSettings settings, Log& log) {
     said +=
         fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.resources.memoryLimit / kMegabyte);
   }
-  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "what Slurm has granted sets " + said);
+  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "the resources that Slurm has granted set " + said);
   return settings;
 }
 

@@ -34,7 +34,7 @@ void warnOfFloatRange(const Scene& scene, Log& log) {
     const float pixel = camera.pixelSize(bound.center());
     if (!(bound.lo.z > 0 && lost > kShift_px * pixel)) continue;
     log.report(Severity::Warning, "float-range", o.where,
-               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} "
+               fmt::format("{}: the camera is {:.3g} units away from the origin of the world, where floats are {:.2g} "
                            "apart; a pixel is {:.2g} there: "
                            "move camera and scene nearer to the origin",
                            objectName(o), away, lost, pixel));
@@ -74,12 +74,12 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     const float share = static_cast<float>(uncertain) / static_cast<float>(records.size());
     if (share > kShareOfRecords)
       log.report(Severity::Warning, "gather-noise", {},
-                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record "
-                             "are few for this light ({})",
+                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays per "
+                             "record are too few for this light ({})",
                              100 * share, records.size(), 100 * kUncertain, c.key.gather.samples, knob));
     else if (sum > 0 && noise > kUncertainLight * sum)
       log.report(Severity::Warning, "gather-few", {},
-                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a "
+                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays of a "
                              "record, from something small and bright, which others miss ({})",
                              100 * noise / sum, c.key.gather.samples, knob));
   }

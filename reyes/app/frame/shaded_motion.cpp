@@ -148,8 +148,8 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
   if (!worst) return;
   log.report(
       Severity::Warning, "motion-light", worst->where,
-      fmt::format("{}: light on it changes by {:.0f} % as it moves, and all of its blur, as at pixel {:.0f},{:.0f}, "
-                  "has that of shutter open; parts are off by half as much: shorten Shutter, or "
+      fmt::format("{}: light on it changes by {:.0f} % as it moves, but its whole blur, as at pixel {:.0f},{:.0f}, has "
+                  "the light of shutter open, so that parts err by half of this: shorten Shutter, or "
                   "render parts of it and average the pictures",
                   objectName(*worst), 100 * most, pixel.x, pixel.y));
 }

@@ -113,17 +113,18 @@ void tellMissed(const AuditReport& report, const QualitySettings& settings, cons
   const ErrorTarget target = targetOf(settings);
   const ErrorEstimate& error = report.picture;
   if (!error.tells() && error.noise > target.error)
-    log.report(Severity::Warning, "target-unproved", {},
-               fmt::format("a mean error of {:.3g} % was asked, and the audit's own noise of {:.2g} % hides whether it "
-                           "is reached, with {}",
-                           100 * target.error, 100 * error.noise, with));
+    log.report(
+        Severity::Warning, "target-unproved", {},
+        fmt::format("a mean error of {:.3g} % was asked for, and the audit's own noise of {:.2g} % hides whether it "
+                    "is reached, with {}",
+                    100 * target.error, 100 * error.noise, with));
   std::string missed;
   if (!errorIsNear(report, target))
-    missed = fmt::format("a mean error of {:.3g} % was asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
+    missed = fmt::format("a mean error of {:.3g} % was asked for, and {:.2g} % ({:.2g} to {:.2g}) was reached",
                          100 * target.error, 100 * error.mean, 100 * error.low, 100 * error.high);
   if (const SmudgeEstimate* s = report.finestSmudges(); !smudgesAreNear(report, target))
     missed +=
-        fmt::format("{}smudges of {:.3g} % were asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
+        fmt::format("{}smudges of {:.3g} % were asked for, and {:.2g} % ({:.2g} to {:.2g}) were reached",
                     missed.empty() ? "" : "; ", 100 * target.smudges, 100 * s->deviation, 100 * s->low, 100 * s->high);
   if (!missed.empty()) log.report(Severity::Warning, "target-missed", {}, fmt::format("{}, with {}", missed, with));
 }

@@ -67,7 +67,7 @@ class StateReader : public RiSink {
       if (r.name == "Illuminate")
         return void(json_["objects"][*object_]["lights"][r.args[0].strings[0]] = r.args[1].number() != 0);
     }
-    throw BadRequest(fmt::format("line {}: {}{} is more than this page changes", r.where.line, r.name,
+    throw BadRequest(fmt::format("line {}: this page cannot change {}{}", r.where.line, r.name,
                                  object_ ? "" : " without the name of an object"));
   }
 
