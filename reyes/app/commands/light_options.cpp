@@ -15,9 +15,7 @@ const GiMethod* giOrUsageError(const std::string& text) {
   throw CLI::ValidationError("--gi", "\"" + text + "\" is none of scene, " + giMethodNames());
 }
 
-}  // namespace
-
-void addLightOptions(CLI::App& app, RenderSettings& s) {
+void addMethodOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--gi", [&s](const std::string& t) { s.light.gi = giOrUsageError(t); },
          "Indirect light (default: scene, as the RIB says)")
@@ -39,6 +37,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
                  "Samples of each area light and of the sky where the eye looks (default: as the lights ask)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--light-seed", s.light.seed, "Seed of the random numbers of light alone (default: that of --seed)");
+}
+
+void addPhotonOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--photons", s.light.photons,
                  fmt::format("Photons to emit for --gi atlas, progressive and the caustics of reference (default {})",
                              s.light.photons))
@@ -47,6 +48,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
                  "--gi progressive, and the caustics of reference: send no more photons once the noise of their light "
                  "is less than this share of it, such as 0.01 (default: send all of --photons)")
       ->check(between(0.0, 1.0));
+}
+
+void addMapOptions(CLI::App& app, RenderSettings& s) {
   app.add_option_function<std::string>(
          "--atlas-direct", [&s](const std::string& t) { s.stored.atlasDirect = t == "stored"; },
          "Direct light where gather rays of --gi atlas hit: stored in the maps that are made, or sampled "
@@ -70,6 +74,9 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
                  "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas "
                  "(default 0.03)")
       ->check(between(0.0, 1e6));
+}
+
+void addRayOptions(CLI::App& app, RenderSettings& s) {
   addParsed(app, "--geometry-cache", s.resources.geometryCache, parseBytes, "30M",
             "Memory for geometry that rays see at several levels (default 30M)");
   app.add_option_function<std::string>(
@@ -80,6 +87,15 @@ void addLightOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag_callback(
       "--no-hit-list", [&s] { s.light.hitList = false; },
       "Offset the origins of rays by a bias alone, without the hit list");
+}
+
+}  // namespace
+
+void addLightOptions(CLI::App& app, RenderSettings& s) {
+  addMethodOptions(app, s);
+  addPhotonOptions(app, s);
+  addMapOptions(app, s);
+  addRayOptions(app, s);
 }
 
 void addTarget(CLI::App& app, QualitySettings& s) {
