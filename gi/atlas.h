@@ -12,8 +12,8 @@
 
 namespace tomales {
 
-/// Tells whether there are brick maps without the photons that they came from. Somebody put them there, and they are
-/// used unchanged.
+/// Tells whether the folder has brick maps without the photons that such maps come from. Somebody put them there, and
+/// they are used unchanged.
 bool isMadeByHand(const std::filesystem::path& folder);
 /// Tells whether the brick maps of a folder hold light that came straight from lights (PhotonSettings::direct).
 bool holdsDirect(const std::filesystem::path& folder);
@@ -25,8 +25,8 @@ class IrradianceAtlas {
   IrradianceAtlas(const std::filesystem::path& folder, const Scene& scene, const MapNames& names, size_t cacheBytes,
                   Log& log);
 
-  /// Names a map that was made from another world than this, if there is one. A world of 0, and maps that do not name
-  /// theirs, match any.
+  /// Returns the name of a map that was made from a world other than `world`, if there is one. A world of 0 matches all
+  /// maps, and a map that does not name its world matches all worlds.
   std::optional<std::string> mapOfOtherWorld(uint64_t world) const;
 
   /// Returns E/pi at P (current space) on the side of N, averaged over a radius; 0 where there is no data.
@@ -35,7 +35,7 @@ class IrradianceAtlas {
     acrossWalls = false;
     return look(mapOfGroup_, group, P, N, radius, &acrossWalls).value_or(vec3(0.0f));
   }
-  /// Returns the same for light that came by mirrors and glass alone.
+  /// Returns the same for caustics alone, which are light that came by mirrors and glass.
   vec3 causticOverPi(int group, const vec3& P, const vec3& N, float radius) const;
   /// Returns the same as irradianceOverPi(), but empty where there is no data.
   std::optional<vec3> bakedOverPi(int group, const vec3& P, const vec3& N, float radius) const {
@@ -50,7 +50,8 @@ class IrradianceAtlas {
   const BrickMap* open(const std::filesystem::path& file);
   void openCaustics(const std::filesystem::path& folder, const MapNames& names);
   vec3 worldNormal(const vec3& N) const { return normalizeOr(toWorld_.normals * N, N); }
-  /// Returns the number of a group's surface in a map; 0: not known, as maps of another scene have other numbers.
+  /// Returns the number of a group's surface in a map; 0 if it is not known, because maps of another scene have other
+  /// numbers.
   int surfaceIn(const MadeFrom& from, int group) const {
     return world_ != 0 && from.world == world_ ? surfaceOfGroup_[static_cast<size_t>(group)] : 0;
   }

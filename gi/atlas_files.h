@@ -61,11 +61,11 @@ PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& sce
 PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, const Scene& scene,
                               const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
                               const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
-/// Makes the files of writePhotons() of all its parts. Throws FileError, also where a part is of another scene.
+/// Makes the files of writePhotons() from all parts. Throws FileError, also if a part belongs to another scene.
 void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                      const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
-/// Makes irradiance points from a photon map. A map of more than `most` photons is processed in cubes of about so many.
-/// `sight` and `shown`: as in estimateIrradiance(), in world space. Throws FileError.
+/// Makes irradiance points from a photon map. A map of more than `most` photons is processed in cubes of about `most`
+/// photons. `sight` and `shown`: as in estimateIrradiance(), in world space. Throws FileError.
 void writeIrradiance(const std::filesystem::path& photons, const std::filesystem::path& out,
                      const PhotonIrradianceSettings& settings, uint64_t most = kPointsInMemory,
                      EstimateFigures* figures = nullptr, const SightAlongSurface& sight = {},

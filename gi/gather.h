@@ -53,13 +53,13 @@ inline HitHighlights highlightsOfHits(bool specularRaysSeeLights) {
 }
 
 /// Gathers one record. `find`, if not null, gets the bright light that the rays of the hemisphere alone have met.
-/// `groups`: the groups of lights whose shares the record gets. The first has no lights: its share is what shines by
-/// itself, and belongs to no other.
+/// `groups`: the groups of lights whose shares the record gets. The first has no lights: its share is the light of
+/// surfaces that glow by themselves, and no other group gets that.
 IrradianceRecord gather(const RayScene& rays, const ShadingSystem& shading, const GatherPoint& point,
                         const GatherSettings& settings, const KnownLight& known, Stats& stats,
                         BrightFind* find = nullptr, std::span<const std::string> groups = {});
 
-/// Returns the shade groups that rays from a group may hit; null if it is all.
+/// Returns the shade groups that rays from a group may hit; null if they may hit all.
 const std::vector<uint8_t>* groupsSeenFrom(const RayScene& rays, int group, const GatherSettings& settings);
 /// Returns the radius of the footprint of one of the hemisphere's rays at its pole, for each unit of distance.
 inline float spreadOfRays(int samples) { return 1 / std::sqrt(static_cast<float>(samples)); }

@@ -7,8 +7,8 @@ namespace tomales {
 class HitRadiance {
  public:
   virtual ~HitRadiance() = default;
-  /// Returns the radiance that leaves a hit towards the ray's origin. False: it is not known. Threads: may be called
-  /// concurrently.
+  /// Finds the radiance that leaves a hit towards the ray's origin. Returns false if it is not known. Threads: may be
+  /// called concurrently.
   virtual bool lookup(const Ray& ray, const Hit& hit, vec3& radiance) const = 0;
   virtual void report(Stats&) const {}  ///< Adds statistics; called after the last lookup.
 };

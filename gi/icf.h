@@ -10,7 +10,7 @@ namespace tomales {
 
 /// The whole file except for the answers.
 struct IrradianceShot {
-  uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers and `learnt` belong to; 0: they do to none.
+  uint64_t shot = 0;  ///< DfbFile::shotSum() of the shot that the answers and `learnt` belong to; 0 if there is none.
   GiSettings settings;
   mat4 cameraFromWorld{1.0f};
   std::vector<PreparedCache> caches;  ///< Caches in camera space.
@@ -44,7 +44,7 @@ class IcfFile {
   /// Checks that the answers of every bucket are as they were written.
   bool intact(std::string& error) const;
   uint64_t size() const { return records_->size(); }
-  uint64_t sum() const { return sum_; }  ///< Names the records and their settings.
+  uint64_t sum() const { return sum_; }  ///< Identifies the records and their settings.
 
  private:
   IcfFile() = default;
@@ -53,12 +53,13 @@ class IcfFile {
   IrradianceShot shot_;
 };
 
-/// Returns the records of all caches as points in world space, without extent. Channels: "record", which is 1;
+/// Returns the records of all caches as points in world space, with a radius of 0. Channels: "record", which is 1;
 /// "irradiance" (E/pi), "closest" and "harmonicmean" (units of the world, 1e30 where rays meet nothing), "noise" (of
 /// E/pi).
 PointCloud recordsOf(const IrradianceShot& shot);
 
-/// Moves records to the camera of another frame, which has not been learnt of; the same bits if it is the same.
+/// Moves records to the camera of another frame and drops `learnt`, which holds for one camera. If the camera is the
+/// same, nothing changes.
 void moveToCamera(IrradianceShot& shot, const mat4& cameraFromWorld);
 
 }  // namespace tomales

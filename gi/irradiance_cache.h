@@ -18,9 +18,8 @@ using IrradianceRecords = BlockVector<IrradianceRecord>;
 
 struct CacheSettings {
   ErrorFunction errorFunction = ErrorFunction::Screen;
-  float kappa =
-      infoOf(ErrorFunction::Screen)
-          .kappa;  ///< kappa of eq. 2: it divides the radii of records. If it is infinite, no record is reused.
+  /// kappa of eq. 2: it divides the radii of records. If it is infinite, no record is reused.
+  float kappa = infoOf(ErrorFunction::Screen).kappa;
   /// R+ (Attribute "irradiance" "maxpixeldist") and R- of eq. 3, in roots of the projected pixel area.
   float maxPixels = infoOf(ErrorFunction::Screen).maxPixels, minPixels = infoOf(ErrorFunction::Screen).minPixels;
   /// Sum of weights that a point needs to be interpolated; with less it gets its own record.

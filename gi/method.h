@@ -1,5 +1,5 @@
-// The methods of indirect light, as the command line (--gi) and indirect lights ("radiance") name them. Their rows in
-// reyes/app/frame/light_sources.cpp make what a method needs beside rays.
+// The methods of indirect light, as the command line (--gi) and indirect lights ("radiance") name them. The rows for
+// them in reyes/app/frame/light_sources.cpp make what a method needs besides rays.
 #pragma once
 #include <string>
 #include <string_view>
@@ -30,7 +30,7 @@ struct GiMethod {
   bool fullGeometry = false;       ///< Rays see micropolygons unless --ray-geometry says otherwise.
   bool isReference = false;        ///< Direct light has as many samples as there are paths.
   bool countsPhotons = false;      ///< Photons are counted at visible points before the frame is shaded.
-  /// It counts only photons that come by mirrors and glass, and none where no surface is one.
+  /// It counts only photons that come by mirrors and glass, and none in a scene without them.
   bool causticsAlone = false;
 };
 

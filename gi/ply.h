@@ -5,7 +5,7 @@
 // channel "Cs" (bytes as 0..1); other properties become channels, runs of NAME_0 NAME_1 ... one of several floats;
 // other elements are skipped. A comment in the header of our own files holds a checksum of the rest of the header and
 // of the vertices, which is compared when they are read.
-// Threads: none.
+// Threads: each call runs on its caller's thread.
 #pragma once
 #include "gi/point_file.h"
 
@@ -19,9 +19,9 @@ struct PlyFigures {
   uint64_t dropped = 0;  ///< Points with a number that is not finite, or a negative radius.
 };
 
-/// Converts PLY to .ptc, in the order of the file. `radius`: for points that have none. Normals are made unit. Throws
-/// FileError: no PLY, no x y z, a list among the properties of its vertices, truncated, longer than it says, with
-/// another checksum, or with lengths of more than 1e18.
+/// Converts PLY to .ptc, in the order of the file. `radius`: for points that have none. Normals are normalised. Throws
+/// FileError if the file is no PLY, has no x y z or a list among the properties of its vertices, is shorter or longer
+/// than it says, has a wrong checksum, or holds lengths of more than 1e18.
 PlyFigures convertPly(const std::string& path, const std::string& out, float radius);
 
 }  // namespace tomales

@@ -20,8 +20,8 @@ struct CloudChannel {
 };
 
 /// The last channel of clouds that tell surfaces apart: the number of the surface that a point lies on, 1 ..
-/// kMostSurfaces; 0: not known; kAcrossWalls: a wall on the surface parts more light from less there. It is no data:
-/// brick maps keep it with their layers (gi/bricks/brick.h).
+/// kMostSurfaces; 0: not known; kAcrossWalls: a wall on the surface separates more light from less there. It is no
+/// data: brick maps keep it with their layers (gi/bricks/brick.h).
 inline const CloudChannel kSurfaceChannel{"__surface", 1};
 constexpr int kMostSurfaces = 126, kAcrossWalls = kMostSurfaces + 1;
 bool tellsSurfaces(const std::vector<CloudChannel>& channels);

@@ -17,7 +17,7 @@ struct PointPictureSettings {
   std::function<std::optional<vec3>(const vec3&)> project;
 };
 
-/// Returns linear R G B A. Throws FileError: no such channel.
+/// Returns linear R G B A. Throws FileError if there is no such channel.
 Image pictureOf(const PointCloud& cloud, const PointPictureSettings& settings);
 
 }  // namespace tomales

@@ -50,8 +50,8 @@ struct PhotonPasses {
   bool specularFirstOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
   bool shrinks = false;  ///< The disks on which photons count shrink while photons are sent. Otherwise each has the
                          ///< area of its micropolygon.
-  Log* log = nullptr;    ///< Must be set, as the next.
-  /// Is told, at the end, how many photons were sent, how many points there are, and their noise.
+  Log* log = nullptr;    ///< Must be set.
+  /// Must be set too. Is told, at the end, how many photons were sent, how many points there are, and their noise.
   std::function<void(int64_t sent, size_t points, double noise)> tell;
 };
 
@@ -107,8 +107,8 @@ class GiServices final : public ShadeServices {
   void gatherPass(const DeepFrame& layout, const TileReader& tiles, const std::function<void(float)>& progress,
                   StopToken stop, const std::function<void(int stride)>& covered = {});
 
-  /// Forgets all that gatherPass() has made. It and shading go by these settings from now on. Maps stay, so the mode
-  /// must be the same, and records are not kept for a later run.
+  /// Forgets all that gatherPass() has made. From now on, gatherPass() and shading use these settings. Maps stay, so
+  /// the mode must be the same. Records are no longer kept for a later run.
   void startAgain(const GiSettings& settings);
 
   /// The cost of the bounce caches in the last gatherPass(). They have about as many records for a small part of the
@@ -127,18 +127,19 @@ class GiServices final : public ShadeServices {
   /// uncovered or, in a frame that they were not made for, where they disagree. anew: pixels whose records were
   /// removed.
   void useCaches(std::vector<PreparedCache> caches, std::optional<PixelRect> anew = {});
-  /// Returns the facts that gatherPass() has learnt besides the caches. With both, points that the caches do not serve
-  /// get the bits that they would get in the run which has gathered.
+  /// Returns what gatherPass() has learnt besides the caches. With both, points that the caches do not serve get the
+  /// same bits as in the run that gathered.
   std::shared_ptr<LearntLight> learnt() const;
   void useLearnt(std::shared_ptr<LearntLight> learnt);
-  /// Has records keep the share of each of these groups of lights (LightTraits::group), so that they can be
-  /// mixed; the first is empty and stands for what shines by itself. Call it before the gather pass, or with caches
+  /// Has records keep the share of each of these groups of lights (LightTraits::group), so that they can be mixed. The
+  /// first is empty and stands for surfaces that glow by themselves. Call it before the gather pass, or with caches
   /// whose records have these shares. It costs the shading of hits once for each group.
   void keepShares(std::vector<std::string> groups);
   const std::vector<std::string>& shareGroups() const;
-  /// Sets the gains of the groups of lights, until they are set again: `gains` for the shares of records and answers
-  /// that were given, `ofNew` for light that is gathered anew. Empty: all are 1. Indirect light is then that of lights
-  /// which are so much brighter, except that the dominant directions stay. Nothing may be shaded during the call.
+  /// Sets the gains of the groups of lights, until they are set again. `gains` applies to the shares of records and
+  /// answers that were given, and `ofNew` to light that is gathered anew. Empty: all are 1. Indirect light is then as
+  /// if the lights were brighter by their gains, except that the dominant directions stay. Nothing may be shaded during
+  /// the call.
   void mixShares(std::vector<vec3> gains, std::vector<vec3> ofNew = {});
   /// Draws the noise of each record anew, for points that are shaded with ShadeContext::redrawn. Nothing may be shaded
   /// during the call.

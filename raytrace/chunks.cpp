@@ -17,9 +17,9 @@ namespace tomales {
 namespace {
 
 constexpr int kTile = 64;                ///< Fine polygons along u or v of a tile.
-constexpr int kChunkPolygons = 64 * 64;  ///< A chunk is full at so many: docs/decisions/0036-geometry-cache.md
-/// Tiles of a chunk. Embree would build a larger scene with several threads, and the bits would depend on their
-/// number.
+constexpr int kChunkPolygons = 64 * 64;  ///< Polygons of a full chunk: docs/decisions/0036-geometry-cache.md
+/// Greatest number of tiles in a chunk. Embree would build a larger scene with several threads, and the bits would
+/// depend on their number.
 constexpr size_t kChunkTiles = 1024;
 /// Cells along u and v of the lattice over a tile that shows where its bound is too small.
 constexpr int kTileProbes = 8;
@@ -28,7 +28,7 @@ constexpr size_t index(TessellationLevel level) { return static_cast<size_t>(lev
 
 int64_t polygons(const CoarseRate& r) { return int64_t{r.nu} * r.nv; }
 
-/// Grows a bound so that vertices that are diced later lie in it despite rounding, also that of Embree.
+/// Grows a bound so that vertices that are diced later lie in it, despite rounding here and in Embree.
 Bound3 withRounding(const Bound3& b) {
   return b.grown(1e-6f * std::max(maxComponent(glm::abs(b.lo)), maxComponent(glm::abs(b.hi))));
 }

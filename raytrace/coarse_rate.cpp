@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kPolygon_px = 16;
 constexpr float kMediumEdge = 3;  ///< Edge of medium polygons over that of micropolygons.
-/// A polygon is not made smaller than this only because the normal turns: far objects need few polygons.
+/// A turning normal alone does not make polygons smaller than this, because far objects need few polygons.
 constexpr float kLeastPolygon_px = 1.5f;
 constexpr float kTurn = 15 * kPi / 180;  ///< Greatest angle in radians between the normals at the ends of a polygon.
 /// The limit on that angle for small polygons: half a circle as one polygon would be its diameter, without area.
@@ -25,7 +25,7 @@ constexpr double kMostQuads = 1 << 20, kMostQuadsOfLevels = 1 << 22;
 /// would cover the picture evenly. The multiple is large because a plane that reaches from the eye to the horizon needs
 /// many more.
 constexpr double kAlwaysQuads = 1 << 16, kMostOfPicture = 256;
-constexpr double kMostSharing = 16;  ///< Patches of an object that share these limits.
+constexpr double kMostSharing = 16;  ///< At most this many patches of an object share its limits.
 
 float angleBetween(const vec3& a, const vec3& b) {
   return std::acos(std::clamp(dot(normalizeOr(a, vec3(0)), normalizeOr(b, vec3(0))), -1.0f, 1.0f));
@@ -67,8 +67,8 @@ bool mayBeSeen(const Object& o, uint32_t patch, const Camera& camera) {
          !camera.outside(bound.grown(o.displacementBound), {0, 0, camera.xResolution(), camera.yResolution()});
 }
 
-/// Returns the greatest number of polygons that a patch may have when their edges are so long. A small picture shows
-/// few polygons, however many a patch of enormous coordinates asks for.
+/// Returns the greatest number of polygons that a patch may have when their edges are `edge_px` long. A small picture
+/// shows few polygons, however many a patch of enormous coordinates asks for.
 double mostQuads(const Object& o, const Camera& camera, float edge_px) {
   const double most = o.attributes->trace.rate == TessellationMode::Fixed ? kMostQuads : kMostQuadsOfLevels;
   const double pixels = 1.0 * camera.xResolution() * camera.yResolution();

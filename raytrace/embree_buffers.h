@@ -8,7 +8,7 @@ namespace tomales {
 void shareBuffers(RTCGeometry geometry, const CoarseGroup& g, const Geometry::Run& run);
 
 /// Copies the quads of runs of out.meshes one after the other, and notes in `out` where each came from. If memory runs
-/// out, some quads are left out, and the device's error tells.
+/// out, some quads are left out, and the device has an error.
 void copyBuffers(RTCGeometry geometry, std::vector<Geometry::Run> runs, Geometry& out);
 
 /// Sets the filter that rejects hits that trim curves have cut away, and levels of detail that the ray does not see.

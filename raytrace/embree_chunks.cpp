@@ -9,7 +9,7 @@ namespace {
 // Bytes that Embree allocates for each grid polygon and for a scene, as its memory monitor tells.
 constexpr size_t kPolygonBytes = 22, kSceneBytes = 10000;
 
-/// An Extent has one box for so many polygons: 24 bytes where polygons take 9000.
+/// An Extent has one box for this many polygons: 24 bytes, while the polygons take 9000.
 constexpr int kPartEdge = 16, kPartPolygons = kPartEdge * kPartEdge;
 
 /// Tests a ray against boxes, grown a little for rounding.

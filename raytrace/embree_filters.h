@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// Returns Embree's mask for rays with these bits of RayMask at a level. Geometries that they see have the same mask.
+/// Returns Embree's mask for rays with these bits of RayMask at a level, and for the geometries that such rays see.
 inline uint32_t maskAt(uint32_t mask, TessellationLevel level) { return mask << 4 * static_cast<int>(level); }
 inline uint32_t maskAtAllLevels(uint32_t mask) {
   return maskAt(mask, TessellationLevel::Fine) | maskAt(mask, TessellationLevel::Medium) |

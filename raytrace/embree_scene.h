@@ -41,7 +41,7 @@ class EmbreeScene {
   bool nearestBeyond(const Ray& ray, float window, uint32_t mask, HitList& list, PolygonHit& beyond) const;
 
   /// Returns true if something opaque lies in `window` < t < tMax, where window is negative for rays without a hit
-  /// list, which start at their bias. Else `list` gets all hits from -window to tMax, unsorted.
+  /// list, which start at their bias. Otherwise `list` gets all hits from -window, or from the bias, to tMax, unsorted.
   bool blockedBeyond(const Ray& ray, float window, uint32_t mask, HitList& list) const;
 
   /// Fills `list` with all hits at t >= -window, however far, unsorted.

@@ -11,10 +11,10 @@
 namespace tomales {
 namespace {
 
-/// A geometry of its own costs less than copies of so many quads (Geometry in raytrace/embree_filters.h).
+/// A geometry of its own costs less than copies of this many quads (Geometry in raytrace/embree_filters.h).
 constexpr size_t kManyQuads = 4096;
 
-/// Embree tells by returning no device where memory does not suffice.
+/// Embree returns no device if memory does not suffice.
 RTCDevice newDevice() {
   if (const RTCDevice device = rtcNewDevice(nullptr)) return device;
   const RTCError error = rtcGetDeviceError(nullptr);

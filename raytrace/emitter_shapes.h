@@ -12,8 +12,8 @@ struct EmitterShape {
   enum class Kind : uint8_t { Rectangle, Disk, Sphere };
   Kind kind = Kind::Rectangle;
   vec3 center{0};
-  vec3 u{1, 0, 0},
-      v{0, 1, 0};  ///< Perpendicular vectors. Rectangle: halves of its edges; disk: radii; sphere: u alone is a radius.
+  /// Perpendicular vectors. Rectangle: halves of its edges; disk: radii; sphere: u alone is a radius.
+  vec3 u{1, 0, 0}, v{0, 1, 0};
   vec3 normal{0, 0, 1};  ///< Unit normal of the shining side; spheres shine outwards.
   int group = -1;        ///< Its index in Scene::groups; -1: not known.
 

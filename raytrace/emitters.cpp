@@ -9,7 +9,7 @@ namespace {
 
 using Corners = std::array<vec3, 4>;
 
-/// Directions are tested against at most so many facets, which costs as much as a ray; larger emitters are not met.
+/// Directions are tested against at most this many facets, which costs as much as a ray. Larger emitters are not met.
 constexpr size_t kMostFacets = 256;
 
 /// Position and d/du x d/dv of the bilinear quad.

@@ -1,8 +1,8 @@
 // Points on area lights. Rectangles, disks and spheres are sampled by solid angle (emitter_shapes.h), all other
-// emitters by area. Points of these lie on the true surface. The coarse quads of all objects that emit for a light are
-// chosen in proportion to area. The points are weighted so that the light has the power of the surface and not of its
-// polygons. Where rays see displacement the polygons are the surface. Directions meet the simple shapes, and meshes of
-// few flat polygons. Space: current. Threads: const members may be called concurrently.
+// emitters by area: their coarse quads are chosen in proportion to area, but the points lie on the true surface,
+// weighted so that the light has the power of the surface and not of its polygons. Where rays see displacement, the
+// polygons are the surface. Directions can meet the simple shapes, and meshes of few flat polygons. Space: current.
+// Threads: const members may be called concurrently.
 #pragma once
 #include "raytrace/emitter_facets.h"
 #include "raytrace/emitter_shapes.h"

@@ -20,7 +20,7 @@ bool sameSurface(const PolygonHit& a, const PolygonHit& b, float distance) {
 bool isOtherFace(const PolygonHit& from, const PolygonHit& hit, const RayStart& start) {
   constexpr float kParallel = 0.9999f;  // The cosine of 0.8 degrees: both may be tessellated differently.
   if (from.leaving == hit.leaving || from.instance != hit.instance) return false;
-  // A slanted ray meets what lies so far from its origin later.
+  // Distances are measured along the normal, because a slanted ray goes farther from face to face.
   const bool isKnown = start.direction != vec3(0) && from.instance < 0;
   const float length = glm::length(from.normal), along = isKnown ? std::abs(dot(start.direction, from.normal)) : length;
   const float most = start.rounding * length;

@@ -20,7 +20,7 @@ vec3 bled(const vec3& color, const Attributes& a) {
   return glm::mix(vec3(luminance(color)), color, a.indirect.bleeding) * a.indirect.bleedingColor;
 }
 
-/// Indices of the hits, sorted by shade group, in the order of the hits inside each group.
+/// Returns the indices of the hits, sorted by shade group, in the order of the hits inside each group.
 std::vector<uint32_t> byGroup(const Scene& scene, const std::vector<Hit>& hits, std::vector<int>& group) {
   std::vector<uint32_t> order;
   order.reserve(hits.size());
@@ -46,8 +46,9 @@ void forEachGroup(const Scene& scene, const std::vector<Hit>& hits, const Work& 
   }
 }
 
-/// A hit later than shutter open is shaded like all other points: the surface is where it was then, and the ray comes
-/// to it as it came to the moved one. Drift is the motion from there to the hit.
+/// A hit later than shutter open is shaded like all other points: the surface is put back to its place at shutter open,
+/// and the ray comes to it as it came to the moved surface. Drift is the motion by deformation from that place to the
+/// hit.
 void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints& points, int i) {
   const ShadeGroup& group = scene.groups[static_cast<size_t>(points.group())];
   const float shutter = lerp(scene.options.shutterOpen, scene.options.shutterClose, ray.time);
@@ -58,7 +59,8 @@ void bringToOpen(const Scene& scene, const Ray& ray, const Hit& hit, ShadePoints
   points.set3(kPx, i, hit.atOpen);
 }
 
-/// Parameters and primitive variables are those of the true surface; place and normals are those of the hit.
+/// Adds the point of a hit. Its parameters and primitive variables are those of the true surface; its place and normals
+/// are those of the hit.
 void addPoint(const RayScene::Impl& rays, const Ray& ray, const Hit& hit, SampleName name, ShadePoints& points) {
   const Scene& scene = rays.scene;
   const int i = points.add(name);
@@ -83,7 +85,7 @@ HitMode modeOf(const Attributes& a, RayKind kind) {
   return kind == RayKind::Diffuse ? a.diffuseHitMode : a.specularHitMode;
 }
 
-/// Cs or Os of a point: its primitive variable, or its attribute.
+/// Returns Cs or Os of a point: its primitive variable, or its attribute.
 vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, std::string_view name,
                     const vec3& attribute) {
   const int offset = offsetOf(group.primvars, name);
@@ -91,7 +93,7 @@ vec3 primitiveColor(const ShadeGroup& group, const ShadePoints& points, int i, s
                     : vec3(points.primvar(offset)[i], points.primvar(offset + 1)[i], points.primvar(offset + 2)[i]);
 }
 
-/// Reads value i of an output that hits provide. Returns false: there is no such value.
+/// Reads the value at point i of an output that hits provide. Returns false if there is no such value.
 bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const std::string& name,
                 const HitAnswers& answers, uint32_t hit, vec3& out) {
   static const std::map<std::string_view, int> kVectors = {{"P", kPx}, {"N", kNx},       {"Ng", kNgx},

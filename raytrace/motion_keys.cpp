@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-/// Keys that fall between the ends of so many parts are missed by at most a 64th of the shutter.
+/// With this many parts of the shutter, no key is farther than a 64th of it from the end of a part.
 constexpr int kMostSteps = 32;
 constexpr float kSameTime = 1.0f / 512;  ///< Share of the shutter.
 

@@ -13,22 +13,23 @@ namespace {
 
 constexpr int kViews = 16;            ///< Lines of sight along each edge of the picture.
 constexpr size_t kFewestPoints = 32;  ///< Fewer say nothing about a room.
-constexpr uint32_t kFewRays = 16,
-                   kRays = 64;    ///< Rays of a point that test whether the room is closed, and that find openings.
-constexpr float kClosed = 0.25f;  ///< A point is shut in that sees less of the sky,
-constexpr double kMostlyClosed = 0.8;                ///< and a room is closed in which so many points are.
-constexpr size_t kFewestEscapes = 8;                 ///< Rays that reach the sky; fewer find no outline.
-constexpr size_t kCandidates = 96, kMost = 16;       ///< Rectangles that are tried, and that are kept.
-constexpr int kAround = 8;                           ///< Directions in which an outline is looked for.
+/// Numbers of rays of a point that test whether the room is closed, and that find openings.
+constexpr uint32_t kFewRays = 16, kRays = 64;
+constexpr float kClosed = 0.25f;                ///< A point is shut in if a smaller share of its rays reaches the sky.
+constexpr double kMostlyClosed = 0.8;           ///< A room is closed if at least this share of its points is shut in.
+constexpr size_t kFewestEscapes = 8;            ///< Rays that reach the sky; fewer find no outline.
+constexpr size_t kCandidates = 96, kMost = 16;  ///< Rectangles that are tried, and that are kept.
+constexpr int kAround = 8;                      ///< Directions in which an outline is looked for.
 constexpr float kFirstStep = 0.01f, kWidest = 1.2f;  ///< Radians from the ray that has found the opening.
 constexpr int kHalvings = 8;
-constexpr float kMargin = 1.01f;  ///< A strip that is left out has much noise, and samples beyond the border are lost.
-constexpr uint32_t kTrials = 64;  ///< Rays that tell how much of a rectangle is open.
-constexpr double kOpen = 0.3;     ///< Least open share of a rectangle.
-constexpr double kAdds = 0.03;    ///< Least share of all escaped rays that a further rectangle adds.
-constexpr double kFinds = 0.6;    ///< Least share of escaped rays that all rectangles have together.
-constexpr double kBetter = 2;     ///< Least factor by which rays to rectangles reach the sky more often than others.
-constexpr float kSpread = 0.1f;   ///< Spread of the rays: an opening needs no fine geometry.
+/// Growth of rectangles: a strip left out would be noisy, but samples beyond the border are merely lost.
+constexpr float kMargin = 1.01f;
+constexpr uint32_t kTrials = 64;     ///< Rays that tell how much of a rectangle is open.
+constexpr double kOpen = 0.3;        ///< Least open share of a rectangle.
+constexpr double kAdds = 0.03;       ///< Least share of all escaped rays that a further rectangle adds.
+constexpr double kFinds = 0.6;       ///< Least share of escaped rays that all rectangles have together.
+constexpr double kBetter = 2;        ///< Least factor by which rays to rectangles reach the sky more often than others.
+constexpr float kSpread = 0.1f;      ///< Spread of the rays: an opening needs no fine geometry.
 constexpr int kMostTransparent = 8;  ///< Panes that one ray passes.
 
 struct Place {

@@ -2,8 +2,8 @@
 //   in     the scene's rays, the whole frame (not the crop), and which surfaces are opaque
 //   out    rectangles in current space; none where the scene is open, or where they would not help
 //   never  decides what light arrives: samples go there more often, and elsewhere too (reyes/shade/portals.h)
-// Rule: points that the camera sees, and points that these see, send out rays. Where most points are shut in, some of
-// the rays that reach the sky ask in eight directions around them what the opening ends at. A rectangle around these
+// Rule: points that the camera sees, and points that these see, send out rays. Where most points are shut in, the edge
+// of the opening is looked for in eight directions around some of the rays that reach the sky. A rectangle around these
 // eight places is kept if other points see the sky through it as well (docs/decisions/0185).
 #pragma once
 #include <vector>

@@ -43,8 +43,8 @@ class Surroundings {
     bool flips;
     std::array<vec3, 2> normals;   ///< Normals of triangles 0-1-3 and 2-3-1, as in PolygonHit::normal.
     std::array<float, 2> heights;  ///< dot(unnormalised normal, corner - origin) of the triangles, in current space.
-    std::array<float, 8> x, y,
-        z;  ///< Normals of the planes of edges 0-1, 1-3, 3-0, 1-2 and 2-3; the other elements fill a vector register.
+    /// Normals of the planes of edges 0-1, 1-3, 3-0, 1-2 and 2-3. The other elements fill a vector register.
+    std::array<float, 8> x, y, z;
   };
 
   std::vector<Near> polygons_;

@@ -14,7 +14,8 @@ namespace tomales {
 namespace {
 
 constexpr double kBytesOfQuad = 125;  ///< A polygon with its vertices, and its part of Embree's tree.
-/// Numbers of polygons fall faster than with the square where few are left, so steps are shorter than that says.
+/// The number of polygons falls faster than by the square of the edges' length where few are left. So a step is shorter
+/// than the square root would be.
 constexpr double kLeastLonger = 1.1, kPowerToFit = 0.3;
 constexpr int kMostAttemptsToFit = 12;
 constexpr int kLatticeTile = 64;  ///< Quads of one lattice along u or v; it limits what is diced at once.

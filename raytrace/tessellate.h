@@ -52,8 +52,8 @@ struct CoarseGroup {
     return {corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3)};
   }
   vec3 geometricNormal(uint32_t quad) const;  ///< Unit normal on the RISpec side.
-  vec3 pointOn(uint32_t quad, float u,
-               float v) const;  ///< A point of the two triangles that rays meet, cut from corner 1 to 3.
+  /// Returns a point of the two triangles that rays meet, cut from corner 1 to 3.
+  vec3 pointOn(uint32_t quad, float u, float v) const;
   const Lattice& latticeOf(uint32_t quad) const { return lattices[latticeOfQuad[quad]]; }
   vec2 patchParameters(uint32_t quad, float u, float v) const;
   /// Tells whether this point of a quad remains after trimming.
@@ -75,14 +75,14 @@ inline float areaOf(const std::array<vec3, 4>& corners) {
 /// (docs/decisions/0006).
 constexpr float kOffsetFactor = 1.5f;
 
-/// Returns one element for each of scene.groups. It is empty for objects that no ray may meet and no light is made of,
-/// for objects that are `elsewhere`, and for patches that rays of all levels see in chunks (raytrace/chunks.h).
-/// Edges are `longer` times what is asked.
+/// Returns one element for each of scene.groups. It leaves out objects that no ray may meet and no light is made of,
+/// objects that are `elsewhere`, and patches that rays of all levels see in chunks (raytrace/chunks.h). Edges are
+/// `longer` times as long as asked.
 std::vector<CoarseGroup> tessellate(const Scene& scene, const Camera& camera, const ShadingSystem& shading, Log& log,
                                     const std::vector<bool>& elsewhere = {}, float longer = 1);
 
-/// Returns the factor on the length of edges with which tessellate() and Embree's tree fit into so much memory; at
-/// least 1. Warns if it is more. `elsewhere` as above.
+/// Returns the factor on the length of edges with which the result of tessellate() and Embree's tree fit into `bytes`;
+/// at least 1. Warns if it is more. `elsewhere` as above.
 float edgesThatFit(const Scene& scene, const Camera& camera, const std::vector<bool>& elsewhere, size_t bytes,
                    Log& log);
 /// Tessellates one object alone.

@@ -10,7 +10,7 @@ namespace {
 constexpr float kChordShare = 0.1f;
 constexpr float kOffsetEpsilon = 1e-5f;  ///< Share of distance and size: rounding, where the coarse surface is exact.
 constexpr float kBias = 1e-4f;           ///< The same for rays without a hit list.
-constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Widths of rays from which on they see these levels.
+constexpr float kMediumWidth_px = 3, kCoarseWidth_px = 16;  ///< Least widths of rays that see these levels.
 
 std::vector<uint32_t> masksOf(const Scene& scene) {
   std::vector<uint32_t> masks;
@@ -46,7 +46,7 @@ std::vector<CoarseGroup> coarseGroups(const Scene& scene, const Camera& camera, 
   return groups;
 }
 
-/// Each thread keeps a list: no allocation once it has grown.
+/// Returns a list that the thread keeps, so that nothing is allocated once it has grown.
 HitList& scratchList() {
   thread_local HitList list;
   return list;
@@ -89,8 +89,8 @@ RayScene::Impl::Impl(const Scene& s, const Camera& c, const ShadingSystem& shadi
     if (o.solid >= 0 && o.attributes->areaLight >= 0)
       log.report(Severity::Warning, "light-in-solid", o.where,
                  objectName(o) +
-                     ": part of a solid and of an area light: it shines from the whole of its surface, also from "
-                     "where the solid takes it away");
+                     ": it is part of a solid and an area light: it shines from its whole surface, also where the "
+                     "solid removes it");
 }
 
 bool RayScene::Impl::addSolids(const Ray& ray, float window, uint32_t mask, HitList& list, bool found,

@@ -76,10 +76,11 @@ inline Hit hitOn(int object, uint32_t patch, const vec2& uv, const vec3& P, cons
 
 /// What is asked about a list of hits.
 struct HitQuestion {
-  std::optional<HitMode> mode;     ///< Empty: the object's attributes decide for this kind of ray.
-  bool wantsColor = true;          ///< False: hits are not shaded.
-  std::vector<RayOutput> outputs;  ///< Further values, which are written there. Elements of misses are left alone.
-  std::vector<int> elements;       ///< The element of the outputs that belongs to each hit.
+  std::optional<HitMode> mode;  ///< Empty: the object's attributes decide for this kind of ray.
+  bool wantsColor = true;       ///< False: hits are not shaded.
+  std::vector<RayOutput>
+      outputs;  ///< Further values of the hits, which are written to their arrays. Elements of misses are left alone.
+  std::vector<int> elements;  ///< The element of the outputs that belongs to each hit.
 };
 
 /// The light of a list of hits.
@@ -179,8 +180,8 @@ class RayScene {
                     const std::vector<Hit>& hits, const std::vector<SampleName>& names, const ShadingSystem& shading,
                     const ShadeContext& context, HitAnswers& answers) const;
 
-  /// Changes the answers by the Volumes between the start of each ray and its hit, or its tMax where nothing was hit:
-  /// there the color is what they scatter, and the opacity what they hide.
+  /// Changes the answers by the Volumes between the start of each ray and its hit, or its tMax. Where nothing was hit,
+  /// the colour becomes the light that they scatter, and the opacity the share of light that they stop.
   void throughVolumes(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const std::vector<SampleName>& names,
                       RayMask mask, const ShadingSystem& shading, const ShadeContext& context,
                       HitAnswers& answers) const;

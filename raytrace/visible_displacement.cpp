@@ -18,13 +18,13 @@ constexpr float kVisible_px = 1;
 constexpr int kFiner = 4;
 /// All polygons of chosen objects are no more than the pixels of the picture, or than this.
 constexpr double kAlwaysQuads = 1 << 17;
-/// A displacement is measured at about so many points of a group.
+/// A displacement is measured at about kProbedPoints points, in at most kProbedPatches patches of a group.
 constexpr size_t kProbedPoints = 4096, kProbedPatches = 64;
-constexpr int kFewestCells = 4, kMostCells = 32;  ///< A probed patch has so many along u and v.
-constexpr float kLongest_px = 32;  ///< Longer polygons are no picture of the surface, and rays would start within it.
-/// The near part of a patch is no larger, so that probes lie close together there.
+constexpr int kFewestCells = 4, kMostCells = 32;  ///< Limits on the cells of a probed patch along u and v.
+constexpr float kLongest_px = 32;  ///< Longer polygons do not follow the surface, and rays would start within it.
+/// Greatest size of the near part of a patch, so that probes lie close together there.
 constexpr float kNearPart_px = 256;
-constexpr int kMostHalvings = 64;  ///< Ground at the eye plane is never that small.
+constexpr int kMostHalvings = 64;  ///< Halving never makes ground at the eye that small.
 
 bool isUndecided(const Attributes& a) { return leavesDisplacementOpen(a) && raysNeed(a); }
 
@@ -73,7 +73,7 @@ struct Probe {
   float u_px = 0, v_px = 0;  ///< The longest lines along u and v of the smooth surface.
 };
 
-/// No pixel is less wide than `leastPixel`.
+/// Measures the effect on one part. Pixels count as no narrower than `leastPixel`.
 Probe probed(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const PatchOfObject& at,
              const UvRect& part, float leastPixel, int cells) {
   Grid grid = dice(scene, at.object, at.patch, part, cells, cells, 1);
@@ -171,7 +171,8 @@ class Chooser {
 
   void report(const std::vector<size_t>& left) const {
     const Object& o = scene_.objects[static_cast<size_t>(patches_[left.front()].front().object)];
-    const std::string others = left.size() > 1 ? fmt::format(", nor those of {} further objects", left.size() - 1) : "";
+    const std::string others =
+        left.size() > 1 ? fmt::format(", nor those of {} more groups of objects", left.size() - 1) : "";
     log_.report(Severity::Warning, "trace-displacement", o.where,
                 fmt::format("{}: rays do not see its displacement of {:.0f} pixels{}, because that takes more polygons "
                             "than the picture has pixels; shadows are those of the smooth surface. Attribute "
@@ -201,7 +202,7 @@ class Chooser {
     });
   }
 
-  /// Stops at the number that is left.
+  /// Counts the polygons of a group. It stops when they are more than are left.
   double countQuads(size_t g) const {
     double quads = 0;
     for (const PatchOfObject& p : patches_[g]) {

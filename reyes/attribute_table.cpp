@@ -42,7 +42,7 @@ void setVisibleToRays(Attributes& a, const Param& p) {
   a.visibility.diffuse = a.visibility.specular = p.number(1) != 0;
 }
 
-/// The attribute of PRMan up to version 12: what shadow rays see, and how they find its opacity.
+/// The attribute of PRMan up to version 12: whether shadow rays see the object, and how they find its opacity.
 void setTransmission(Attributes& a, const Param& p) {
   a.visibility.transmission = p.strings[0] != "transparent";
   a.transmissionHitMode = p.strings[0] == "shader" ? HitMode::Shader : HitMode::Primitive;

@@ -1,4 +1,5 @@
-// Noun: the attributes that have names, one row each: their types, how a scene sets them and what they answer.
+// Noun: the table of named attributes. Each row has the type, how a scene sets the attribute, and the value that
+// conditions and shaders read.
 #pragma once
 #include <span>
 #include <string_view>
@@ -20,7 +21,8 @@ struct NamedAttribute {
   std::vector<std::string_view> words{};  ///< The strings that it knows; the first stands for others. If empty, any.
 };
 
-/// Has all that can be set in Attributes, what Attribute sets elsewhere, and names that are known but have no effect.
+/// Has a row for all that can be set in Attributes, for what Attribute sets elsewhere, and for names that are known but
+/// have no effect.
 std::span<const NamedAttribute> namedAttributes();
 /// Returns null if there is no row of that name.
 const NamedAttribute* findNamedAttribute(std::string_view name);

@@ -69,7 +69,7 @@ bool Camera::clips(const vec2& at, const vec2& lens, float key) const {
 
 bool Camera::outside(const Bound3& b, const PixelRect& window) const {
   const auto beyond = [&](const vec4& plane) {
-    // The corner of the box that lies the least far on the side that the plane cuts off.
+    // The corner of the box that is least far on the side that the plane cuts off.
     const vec3 least(plane.x > 0 ? b.lo.x : b.hi.x, plane.y > 0 ? b.lo.y : b.hi.y, plane.z > 0 ? b.lo.z : b.hi.z);
     return dot(plane, vec4(least, 1)) > 0;
   };

@@ -14,7 +14,7 @@ class Camera {
 
   int xResolution() const { return xResolution_; }
   int yResolution() const { return yResolution_; }
-  /// The size of the picture, which FrameAspectRatio may make smaller than the format.
+  /// Return the size of the picture, which FrameAspectRatio may make smaller than the format.
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   float frameAspect() const { return frameAspect_; }
@@ -24,8 +24,8 @@ class Camera {
   float nearClip() const { return near_; }
   float farClip() const { return far_; }
 
-  /// Geometry nearer than this cannot be diced. It is half as far as the near plane, so that surfaces that the near
-  /// plane cuts can be.
+  /// Geometry nearer than this cannot be diced. It is half as far as the near plane, so that surfaces which the near
+  /// plane cuts can still be diced.
   float eyePlane() const { return 0.5f * near_; }
   /// Tells whether the point is finite, and not nearer than the eye plane. Then `raster` is defined, and so is the
   /// depth key.
@@ -41,8 +41,8 @@ class Camera {
   }
   /// Tells whether near or far clipping or a clipping plane cuts off a point. It is not tested against the window.
   bool clips(const vec3& p) const;
-  /// Tests the same of the point that a sample at raster position `at` meets at a depth key. `lens` is the raster shift
-  /// of its lens point at a key of focusKey() + 1.
+  /// Tells the same of the point that a sample at raster position `at` sees at a depth key. `lens` is the raster shift
+  /// of the sample's lens point at the depth key focusKey() + 1.
   bool clips(const vec2& at, const vec2& lens, float key) const;
   /// Returns a depth that grows with distance and is linear in raster space: -1/z under perspective, z otherwise.
   float depthKey(float z) const { return perspective_ ? -1.0f / z : z; }
@@ -66,8 +66,8 @@ class Camera {
   /// nearer than `nearClip`, beyond `farClip` or a clipping plane; defocus included. It works for boxes that cross the
   /// eye plane.
   bool outside(const Bound3& b, const PixelRect& window) const;
-  /// Does the same without `farClip` and clipping planes: it tells whether no line of sight through the window meets
-  /// the box.
+  /// Does the same without `farClip` and clipping planes: it returns true only if no line of sight through the window
+  /// meets the box.
   bool outsideWindow(const Bound3& b, const PixelRect& window) const;
 
   /// Returns the width in camera space of one pixel's footprint at p, on a surface that faces the eye. The footprint on

@@ -1,7 +1,7 @@
 // Noun: the deep frame buffer. For every bucket, the micropolygons that some sample sees, as points to shade, and the
 // fragments of every pixel. Gathering and shading read it as often as they like; no geometry is needed any more.
 //
-//   DeepFrame 1--* DeepTile 1--* ShadePoints (one batch a shade group)
+//   DeepFrame 1--* DeepTile 1--* ShadePoints (one batch for each shade group)
 //                           1--* DeepPixel 1--* Fragment --> Facet --> shade point(s)
 #pragma once
 #include <array>

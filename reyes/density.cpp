@@ -15,7 +15,7 @@ size_t within(const ivec3& point) {
   return static_cast<size_t>((((point.x & kMask) << kShift | (point.y & kMask)) << kShift) | (point.z & kMask));
 }
 
-/// Returns the piece that ends at `next`, up to a share of it.
+/// Returns the place within the piece that ends at `next`.
 DensityAlongRay::Place inPiece(const DensityAlongRay::Knot* next, float distance, float columnDensity) {
   const float length = next->distance - (next - 1)->distance, holds = next->columnDensity - (next - 1)->columnDensity;
   return {distance, columnDensity, length > 0 ? holds / length : 0};
@@ -99,7 +99,8 @@ float DensityGrid::at(const ivec3& point) const {
   return number < 0 ? 0 : values_[static_cast<size_t>(number) * kBrickFloats + within(point)];
 }
 
-// Along a line the density of a cell is a cubic polynomial, which two points of Gauss and Legendre integrate exactly.
+// Along a line the density of a cell is a cubic polynomial, which two-point Gauss-Legendre quadrature integrates
+// exactly.
 float DensityGrid::integral(const ivec3& cell, const vec3& origin, const vec3& direction, float t0, float t1) const {
   float corner[2][2][2];
   for (int x = 0; x < 2; ++x)
@@ -116,11 +117,13 @@ float DensityGrid::integral(const ivec3& cell, const vec3& origin, const vec3& d
   return half * sum;
 }
 
-/// Calls visit(end, columnDensity) for pieces of the line, in order. J. Amanatides and A. Woo, "A Fast Voxel Traversal
-/// Algorithm for Ray Tracing", 1987, which steps over whole bricks that hold nothing.
+/// Calls visit(end, columnDensity) for pieces of the line, in order. This is the traversal of J. Amanatides and A. Woo,
+/// "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987; it skips whole empty bricks.
 template <class Visit>
-void DensityGrid::walk(const vec3& from, const vec3& to, float t0, float t1, const Visit& visit) const {
-  const vec3 origin = transformPoint(indexFromObject_, from), direction = transformVector(indexFromObject_, to);
+void DensityGrid::walk(const vec3& objectOrigin, const vec3& objectDirection, float t0, float t1,
+                       const Visit& visit) const {
+  const vec3 origin = transformPoint(indexFromObject_, objectOrigin),
+             direction = transformVector(indexFromObject_, objectDirection);
   const vec3 inverse = 1.0f / direction;
   float t = t0;
   ivec3 cell(glm::floor(origin + t * direction));

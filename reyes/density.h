@@ -33,7 +33,7 @@ class DensityGrid {
   /// `indexFromObject` finds them, and nothing is dense outside of `bound`, a box of object space.
   DensityGrid(const ivec3& first, const ivec3& last, const mat4& indexFromObject, const Bound3& bound);
 
-  /// Tells how many bytes the table of bricks takes for such a lattice.
+  /// Returns how many bytes the table of bricks takes for such a lattice.
   static double tableBytes(const ivec3& first, const ivec3& last);
   /// Returns the values of the brick that holds a point, z fastest. It is made if there is none.
   float* brickAt(const ivec3& point);
@@ -44,8 +44,8 @@ class DensityGrid {
   const Bound3& bound() const { return bound_; }
   float at(const ivec3& point) const;
 
-  /// Adds the density along a ray of object space: origin + t direction, from t0 to t1. The column density is the
-  /// integral of the density over t times `unit`, and distances are t times `unit` from t0 on.
+  /// Sets `out` to the density along a ray of object space: origin + t direction, from t0 to t1. Distances are (t - t0)
+  /// times `unit`, and the column density is the integral of the density over that distance.
   void cross(const vec3& origin, const vec3& direction, float t0, float t1, float unit, DensityAlongRay& out) const;
   /// Returns the column density alone, as cross() finds it.
   float columnDensity(const vec3& origin, const vec3& direction, float t0, float t1) const;

@@ -38,7 +38,7 @@ class DfbWriter {
   bool finish();
   std::string error() const { return records_->error(); }
   const std::string& unfinishedPath() const { return records_->unfinishedPath(); }
-  /// Takes the name of the unfinished file away; tiles can still be written and read.
+  /// Deletes the unfinished file's name. Tiles can still be written and read until the writer is destroyed.
   void discard() { records_->discard(); }
 
  private:

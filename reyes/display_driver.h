@@ -31,7 +31,7 @@ class DisplayDriver {
   ~DisplayDriver();  ///< Tells a driver that is not closed that rows are missing.
   DisplayDriver(const DisplayDriver&) = delete;
 
-  /// Each returns false if it fails, and is not called again then: error() says why.
+  /// Each returns false if it fails, and error() says why. Neither may be called after a failure.
   bool write(const Image& rows);
   bool close();
   /// Kills the process, from any thread: calls that wait for it fail.

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-/// Returns the names in a mode, which commas or blanks part.
+/// Returns the names in a mode, which commas or blanks separate.
 inline std::vector<std::string> channelNames(const std::string& mode) {
   std::vector<std::string> out{""};
   for (const char c : mode)
@@ -17,7 +17,7 @@ inline std::vector<std::string> channelNames(const std::string& mode) {
   return out;
 }
 
-/// Tells whether it names the colour, opacity or depth of the picture by letters, as "rgba" does.
+/// Tells whether a mode names the colour, opacity or depth of the picture by letters, as "rgba" does.
 inline bool isOfLetters(const std::string& mode) {
   return !mode.empty() && mode.find_first_not_of("rgbaz") == std::string::npos;
 }

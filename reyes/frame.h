@@ -47,13 +47,13 @@ DeepFrame layOutFrame(const Scene& scene);
 class FrameHider {
  public:
   /// All arguments must outlive it. It opens the scene's procedurals as buckets come to them, and drops their geometry
-  /// after the last one. If tiles leave before the last one is hidden, open all procedurals first: a list of all groups
-  /// would miss those that are found later.
+  /// after the last bucket. If tiles are written to a file before the last one is hidden, open all procedurals first:
+  /// otherwise the file's list of groups would miss those that are found later.
   FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
              Log& log);
   ~FrameHider();  ///< Warns of uncertain results.
-  /// Hides each bucket once, in any order. Returns false if it was stopped and some were not hidden. Threads begin
-  /// far apart in the list: those that hide neighbours wait for each other to open nodes that touch both.
+  /// Hides each bucket once, in any order. Returns false if it was stopped before all were hidden. Threads begin far
+  /// apart in the list: those that hide neighbours wait for each other to open nodes that touch both.
   bool hide(std::span<const uint32_t> buckets, const TileSink& sink);
 
  private:
@@ -67,7 +67,7 @@ DeepFrame hideFrame(Scene& scene, ShadingSystem& shading, const FrameControl& co
 
 /// Returns the tiles that the picture of frame.crop needs, in bucket order.
 std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
-/// Runs surface shaders, lights and atmosphere over the points of a tile.
+/// Runs surface shaders, lights and the atmosphere over the points of a tile.
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
 /// Shades tiles, started in the order given. Returns false if stopped: tiles that were being shaded then are dropped,
 /// because parts of them may be missing.
@@ -88,7 +88,7 @@ using RowViewer = std::function<void(const Image& rows)>;
 /// written is reported; the other Displays are written all the same.
 void writeFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Scene& scene,
                 const ShadingSystem& shading, const FrameControl& control, Stats& stats, Log& log);
-/// Makes the same rows for the viewer alone, before exposure and imager, and writes no files.
+/// Passes the same rows to the viewer alone, before exposure and imager, and writes no files.
 void showFrame(DeepFrame& frame, const TileFill& fill, const RowViewer& viewer, const Options& options,
                const FrameControl& control);
 

@@ -118,7 +118,8 @@ class Hider {
   /// All arguments but `rect` must outlive the Hider.
   Hider(const Scene& scene, const Camera& camera, const SamplePattern& pattern, const PixelRect& rect);
   ~Hider();
-  /// Tells whether something opaque nearer than zMin (camera space) hides every sample in the bound already.
+  /// Tells whether every sample in the bound is already hidden by something opaque that is nearer than zMin (camera
+  /// space).
   bool hidden(const Bound2& raster, float zMin) const;
   /// Tells the same of a projected grid. If it is hidden, insert() would find nothing to do.
   bool hidden(const RasterExtent& extent) const;

@@ -51,7 +51,7 @@ struct SampleOffsets {
   std::function<int(int x, int y)> patternOf;
 };
 
-/// The camera of a picture, which files keep that have room for it. Screen space has x and y in [-1, 1], y up.
+/// The camera of a picture, kept in files whose format has room for it. Screen space has x and y in [-1, 1], y up.
 struct View {
   mat4 cameraFromWorld{1.0f}, screenFromWorld{1.0f};
   float near = 0, far = kInfinity;  ///< Distances of the clipping planes.
@@ -64,8 +64,8 @@ struct MatteNames {
 
 View viewOf(const Camera& camera, const mat4& cameraFromWorld);
 
-/// Limits of merging the samples of a deep pixel: samples within `depth` of their distance are merged, and samples that
-/// together are no more opaque than `opacity`.
+/// Limits of merging the samples of a deep pixel. Samples are merged if they lie within the fraction `depth` of their
+/// distance, or if together they are no more opaque than `opacity`.
 struct DeepMerge {
   float depth = 1e-3f, opacity = 1.0f / 512;
   bool opacityOnly = false;  ///< Write AR AG AB Z ZBack instead of R G B A Z ZBack.
@@ -94,8 +94,8 @@ class FrameFilter {
               const MatteNames& names = {});
   ~FrameFilter();
   Image shape() const;  ///< The whole picture, without pixels.
-  /// Takes the contributions of a tile, which may be dropped then unless needsTiles(). Any thread may call it, each for
-  /// another tile.
+  /// Takes the contributions of a tile. The tile may be dropped afterwards unless needsTiles(). Threads may call it at
+  /// the same time for different tiles.
   void resolve(size_t index, const DeepTile& tile);
   /// Tells whether tiles must stay in the frame until their rows are read: Cryptomatte and deep pixels read fragments.
   bool needsTiles() const;
@@ -103,7 +103,8 @@ class FrameFilter {
   /// Returns raster rows [y0, y1) of the crop window. Calls must go from the top down. Tiles that are not resolved are
   /// taken from the frame. Data that no lower row needs are dropped afterwards.
   Image rows(int y0, int y1);
-  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;  ///< Returns deep pixels likewise, before exposure.
+  /// Returns the same rows as deep pixels, before exposure.
+  DeepRows deepRows(int y0, int y1, const DeepMerge& merge) const;
 
  private:
   struct Impl;
@@ -138,7 +139,8 @@ inline constexpr const char *kContents = "tomales:contents", *kShot = "tomales:s
 /// The header's text that tells which share of its buckets a picture holds: kAllFinished, or less where the frame was
 /// interrupted. DisplayFile::close() writes the share over it.
 constexpr const char *kFinishedShare = "tomales:finished", *kAllFinished = "1.000";
-/// The header's text for statistics of the frame, which are known after its last pixel. It begins as so many blanks.
+/// The header's text for statistics of the frame, which are known after its last pixel. It begins as kStatisticsRoom
+/// blanks.
 constexpr const char* kStatistics = "tomales:statistics";
 constexpr size_t kStatisticsRoom = 8192;
 /// Writes `text` over the blanks, in each part of a finished OpenEXR file. Returns false if there is no room for it.
@@ -163,8 +165,8 @@ class DisplayFile {
   /// A deep Display uses these instead of write(Image); deep() is empty if the Display is not deep.
   std::optional<DeepMerge> deep() const;
   bool write(const DeepRows& rows);
-  /// Gives the file its name. `finished`: the share of the buckets that it holds. A picture with less than 1 leaves
-  /// what has that name alone: it becomes NAME.partial.exr, which is reported.
+  /// Gives the file its name. `finished`: the share of the buckets that it holds. If that is less than 1, the file is
+  /// named NAME.partial.exr instead, which is reported, and an earlier file of the right name stays.
   bool close(float finished = 1);
   /// Returns the name that close() has given to the file, or that a driver has got.
   const std::string& written() const;
@@ -218,7 +220,7 @@ struct Comparison {
   double rmse = 0, relativeMse = 0, meanAbsoluteRelativeError = 0, maxError = 0, psnr_dB = 0, ssim = 0, flip = 0;
   /// Relative standard deviation of test / reference over the smooth blocks of each size; 0 where fewer than two are.
   std::array<double, kSmudgeSizes.size()> smudges{};
-  double specks = 0;  ///< Share of the pixels of smooth blocks of 8 x 8 that stand out of their block by a fifth.
+  double specks = 0;  ///< Share of the pixels of smooth 8 x 8 blocks whose error exceeds a fifth of their block's mean.
   int64_t differentPixels = 0;
 };
 Comparison compare(const Image& test, const Image& reference);

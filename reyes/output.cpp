@@ -23,7 +23,7 @@ const std::map<std::string, Reduce, std::less<>> kReductions = {{"zmin", Reduce:
                                                                 {"max", Reduce::Max},
                                                                 {"average", Reduce::Average}};
 
-/// Sets the sampling and encoding that the request's parameters give; others stay.
+/// Sets the sampling and encoding that the request's parameters give, and keeps all others.
 void amend(Channel& channel, Encoding& encoding, const Asker& asker, Log* log) {
   const auto numbers = [&](const char* name, size_t count) -> std::optional<std::vector<float>> {
     const Param* p = findParam(asker.params, name);
@@ -105,7 +105,7 @@ class Planner {
     for (const char letter : name) select(std::string(1, letter), display, selection, true);
   }
 
-  /// asLetter: "r", "g" and "b" are those of Ci, whatever channels are called so.
+  /// asLetter: "r", "g" and "b" mean Ci, even if channels have these names.
   void select(const std::string& name, const DisplayCall& display, Selection& selection, bool asLetter = false) {
     static const std::string kLetters = "rgb";
     const bool letter = asLetter && kLetters.find(name[0]) != std::string::npos;
@@ -216,7 +216,7 @@ FrameOutput outputOf(const Options& options, Log* log) { return Planner(options,
 
 namespace {
 
-/// Types of Displays that say what is written, and not only in which format.
+/// Types of Displays that decide what is written, and not only the format.
 struct MapType {
   std::string_view name;
   bool deep;   ///< It has a list of depths in every pixel.

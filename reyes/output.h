@@ -9,8 +9,9 @@
 
 namespace tomales {
 
-/// The way in which the samples around a pixel become its value. Filter: the weighted mean. The others use the samples
-/// that see a surface: the value of the nearest or the farthest one, the least or the greatest value, the plain mean.
+/// The way in which the samples around a pixel become its value. Filter takes their weighted mean. The others use only
+/// samples that see a surface: they take the value of the nearest or the farthest one, the least or the greatest value,
+/// or the plain mean.
 enum class Reduce : uint8_t { Filter, ZMin, ZMax, Min, Max, Average };
 
 struct Sampling {
@@ -79,7 +80,8 @@ struct FrameOutput {
 /// Computes FrameOutput::shades alone.
 bool shades(const Options& options);
 
-/// Reports channels that are not declared, and parameters that are not understood, if `log` is given.
+/// Derives the output from the Displays. If `log` is given, it reports channels that are not declared and parameters
+/// that are not understood.
 FrameOutput outputOf(const Options& options, Log* log = nullptr);
 
 /// Tells whether the Display writes a map for later frames and shows nothing, as types "shadow", "zfile" and "deepshad"

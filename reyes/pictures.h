@@ -47,7 +47,7 @@ struct TextureQuery {
   float fill = 0;                ///< Value of channels that the picture lacks.
   const char* filter = "";       ///< "", box, disk and lerp are bilinear; others are cubic where texels are magnified.
   float sWidth = 1, tWidth = 1;  ///< Factors of the region's size; 0 looks up a point of the finest level.
-  float sBlur = 0, tBlur = 0;    ///< They widen it by a fraction of the picture.
+  float sBlur = 0, tBlur = 0;    ///< Widen the region by a fraction of the picture.
   int count = 0;
   const uint8_t* active = nullptr;
   const float *s = nullptr, *t = nullptr;
@@ -60,17 +60,17 @@ struct TextureSettings {
   std::string cacheFolder{};  ///< Where converted pictures are kept; if empty: $TOMALES_TEXTURE_CACHE or the user's
                               ///< cache folder.
   int64_t memory_bytes = int64_t{1} << 30;
-  /// Told what was damaged in the folder and is made anew; it is called by any thread.
+  /// Is told which file in the folder was damaged and is made anew. Any thread may call it.
   std::function<void(const std::string& what)> note{};
 };
 
-/// Endings of names of textures, those of other renderers among them; the best to read first.
+/// Extensions of textures, also those that other renderers make. The best ones to read come first.
 inline const std::vector<std::string>& textureEndings() {
   static const std::vector<std::string> endings = {".tif", ".tiff", ".exr", ".png", ".jpg", ".jpeg",
                                                    ".hdr", ".tga",  ".tx",  ".tex", ".txr", ".tdl"};
   return endings;
 }
-/// Endings of names of textures and of other maps.
+/// Extensions of textures and of other maps.
 inline const std::vector<std::string>& pictureEndings() {
   static const std::vector<std::string> endings = [] {
     std::vector<std::string> out = textureEndings();
@@ -90,12 +90,12 @@ struct TextureFigures {
 class TextureCache {
  public:
   virtual ~TextureCache() = default;
-  /// Fills out.x (and y, z for three channels) and counts lookups. Where the picture is missing or unreadable another
-  /// of candidateFiles() is taken. `remark` becomes why nothing was read (false), or which other was taken and why
-  /// (true); else it is left alone.
+  /// Fills out.x (and y, z for three channels) and counts lookups. If the picture is missing or unreadable, another of
+  /// candidateFiles() is taken. Returns false if nothing was read; `remark` then says why. If another file was taken,
+  /// `remark` says which and why. Otherwise `remark` is left alone.
   virtual bool lookup(const TextureQuery& query, TmVec3 out, int64_t& lookups, std::string& remark) = 0;
   /// RSL textureinfo(): exists, resolution, channels, bitsperchannel, viewingmatrix, projectionmatrix into `numbers`,
-  /// type and textureformat into `text`. False: there is no such picture or no such fact.
+  /// type and textureformat into `text`. Returns false if there is no such picture or no such fact.
   virtual bool info(const std::string& name, const std::string& what, std::vector<float>& numbers,
                     std::string& text) = 0;
   /// Returns the figures that all caches have counted since the last call. All caches of the process share their tiles.

@@ -143,8 +143,8 @@ class ShadePoints {
 struct ShadedPoints {
   AlignedVector<float> Ci[3], Oi[3];
   std::vector<AlignedVector<float>> variables;  ///< Values of FrameOutput::variables; empty if they are not stored.
-  /// The part of Ci and Oi that belongs to the air before a transparent point, seen beside its surface: where another
-  /// surface follows behind, that one's air holds it too. Empty if there is none.
+  /// The part of Ci and Oi that comes from the air before a transparent point, where one sees past its surface. The air
+  /// of a surface behind includes this air too, so compositing must not count it twice. Empty if there is none.
   AlignedVector<float> airCi[3], airOi[3];
   void resize(int count);
   vec3 color(int i) const {

@@ -118,7 +118,8 @@ class Prim {
     return nullptr;
   }
 
-  /// Returns the part of a rectangle that trim curves keep; it may reach beyond the patch. Returns `Part` if in doubt.
+  /// Returns the part of a rectangle that trim curves keep. The rectangle may reach beyond the patch. Returns `Part` if
+  /// in doubt.
   virtual Kept kept(uint32_t /*patch*/, const UvRect& /*rect*/) const { return Kept::All; }
   /// Tells whether trim curves keep this point.
   virtual bool keeps(uint32_t /*patch*/, float /*u*/, float /*v*/) const { return true; }
@@ -162,9 +163,8 @@ struct PrimError : std::runtime_error {
 struct PrimvarCounts {
   size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4;
 };
-/// Turns a RIB parameter list into primvars. It leaves out positions (P, Pw, Pz), which the factories take by
-/// themselves. A variable that has another number of values than `counts` asks for is dropped, with a sentence in
-/// `problems`.
+/// Turns a RIB parameter list into primvars. It leaves out positions (P, Pw, Pz), which the factories read themselves.
+/// A variable whose number of values is not the one that `counts` asks for is dropped, with a sentence in `problems`.
 std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts,
                                   std::vector<std::string>& problems);
 
@@ -273,15 +273,16 @@ struct GroundPicture {
   mat4 cameraFromObject{1.0f};
   mat4 texelFromObject{1.0f};  ///< Homogeneous; texel (0, 0) is the square from (0, 0) to (1, 1).
 };
-/// Reads the picture named by a string of the request. It reports one that cannot be read and returns nothing.
+/// Reads a picture by the index of its name among the strings of the request. A picture that cannot be read is
+/// reported, and the result is empty.
 using GroundReader = std::function<std::optional<GroundPicture>(int string)>;
 
 /// Returns the surface where a field, made of leaves and operations on them, is 27/64. `code` and `floats` are as in
-/// RIB (reyes/prim/blobby_code.h); varying and vertex primvars have a value for each leaf and blend.
+/// RIB (reyes/prim/blobby_code.h); varying and vertex primvars have one value for each leaf, and these values blend.
 PrimPtr makeBlobby(int leafCount, const std::vector<int>& code, const std::vector<float>& floats, const GroundReader&,
                    const ParamList&, Problems&);
 /// Makes a later key of a moving blobby: the mesh of `first` follows its leaves, and is then projected onto the new
-/// surface. If `first` is no Blobby of as many leaves, it does the same as makeBlobby().
+/// surface. If `first` is not a Blobby with the same number of leaves, it does the same as makeBlobby().
 PrimPtr makeBlobbyKey(const Prim& first, int leafCount, const std::vector<int>& code, const std::vector<float>& floats,
                       const GroundReader&, const ParamList&, Problems&);
 
@@ -293,7 +294,7 @@ struct SubdivisionTags {
   std::vector<float> floats;
   std::vector<std::string> strings;
 };
-/// Makes schemes "catmull-clark", "loop" (triangles only) and "bilinear" by OpenSubdiv's limit surface.
+/// Makes the limit surface by OpenSubdiv. `scheme` is "catmull-clark", "loop" (triangles only) or "bilinear".
 PrimPtr makeSubdivisionMesh(const std::string& scheme, const std::vector<int>& vertexCounts,
                             const std::vector<int>& vertices, const SubdivisionTags& tags, const ParamList&, Problems&);
 

@@ -65,9 +65,9 @@ struct RibSettings {
   /// would outlive it then have none.
   std::function<bool(int frame)> skipsFrame{};
   std::function<void(int worlds)> onSkipped{};
-  /// Called with each request in a frame because of which frames must not be skipped: one whose effect outlives the
-  /// frame, such as Declare, or a WorldBegin in an archive, which skipping would not count. Make requests are left out:
-  /// onMake gets them.
+  /// Called with each request in a frame that forbids skipping frames. Such a request has an effect that outlives the
+  /// frame, as Declare has, or is a WorldBegin in an archive, which skipping would not count. Make requests are left
+  /// out: onMake gets them.
   std::function<void(const Request&)> onOutliving{};
   /// Called with every file that is read, or would be if it were there.
   std::function<void(const FileUse&)> onFile{};
@@ -96,8 +96,8 @@ std::set<std::string> makeSources(const std::vector<std::string>& files);
 /// needs it), "ignored", or "missing" (ignored, though the picture needs it).
 std::string ribRequests();
 
-/// Changes a scene that is hidden already. A shader that stays the same keeps the parameters that are not given. Other
-/// requests than these are ignored with a warning. Returns as readRib.
+/// Changes a scene that is hidden already. If a request names the shader that is in use, parameters that it does not
+/// give keep their values. Requests other than these are ignored with a warning. Returns as readRib.
 ///   Surface, Atmosphere, Color, Illuminate, Attribute   change the objects that the last Attribute "identifier" "name"
 ///                                                       has named; all objects if there was none
 ///   LightSource                                         changes the light of that handle

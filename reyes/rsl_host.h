@@ -19,8 +19,8 @@ constexpr int32_t kArrayVaries = 0x10000;
 /// it.
 constexpr int kDefaultLightSamples = 16;
 
-/// Added to the type of a parameter that is only what an output begins with, which the shader assigns later. Messages
-/// do not tell it.
+/// Added to the type of an output parameter that the shader assigns later, so that its value is only the initial one.
+/// Message passing does not return that value.
 constexpr int32_t kBeginsOutput = 0x20000;
 
 /// Returns the form of a light that AreaLightSource runs: its P lies on the geometry. Returns null if the light is not
@@ -32,7 +32,7 @@ bool isMean(const TmShader& light);
 /// Tells whether the shader is such a form, and shines from both sides of its geometry: illuminate() has no cone.
 bool shinesAllRound(const TmShader& light);
 
-/// A value of a parameter, which others ask for.
+/// The value of a shader's parameter, for other shaders that ask for it.
 struct RslValue {
   bool varies = false;
   /// If it varies, component k of point i is [k * padded + i]; else element by element, component by component. Empty

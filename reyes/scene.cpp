@@ -48,8 +48,8 @@ class GroupHash {
   uint64_t value_ = 0;
 };
 
-// Returns Object::keyTimes. Only the opening is left if nothing moves or the shutter is closed. `shapeTimes` is empty
-// if the shape does not change.
+// Returns Object::keyTimes; only the opening of the shutter if nothing moves or the shutter is closed. `shapeTimes` is
+// empty if the shape does not change.
 std::vector<float> keyTimesOf(const std::vector<float>& shapeTimes, const Motion& cameraFromObject,
                               const Options& options) {
   std::vector<float> times{options.shutterOpen};
@@ -112,7 +112,7 @@ float Scene::displacementBoundOf(const Attributes& a, const Motion& cameraFromOb
     cameraFromBoundSpace = cameraFromWorldAtOpen() * a.displacement->worldFromShader.at(options.shutterOpen);
   else
     cameraFromNamed(a.displacementBoundSpace, cameraFromBoundSpace);
-  // Shaders displace at shutter open, and what they add grows with the object.
+  // Shaders displace at shutter open, and displacement scales with the object.
   const mat4 fromOpen = cameraFromObject.at(time) * glm::inverse(cameraFromObject.at(options.shutterOpen));
   const float growth = time == options.shutterOpen ? 1 : largestScale(fromOpen);
   return a.displacementBound * largestScale(cameraFromBoundSpace) *

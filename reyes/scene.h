@@ -17,7 +17,8 @@ namespace tomales {
 /// (docs/decisions/0003).
 constexpr float borderReach_px(float displacementBound) { return displacementBound > 0 ? 4.0f : 0.5f; }
 
-/// The shapes of an object around a time: `before`, or the point `t` of the way from it to `after` unless that is null.
+/// The shapes of an object around a time. The shape then is `before` if `after` is null. Otherwise it lies between
+/// them: `t` is 0 at `before` and 1 at `after`.
 struct ShapesAround {
   const Prim *before, *after;
   float t;
@@ -48,7 +49,7 @@ struct Object {
   uint32_t sampleKey = 0;
 
   const Prim& shape() const { return *shapes.front(); }
-  /// Before the first of `shapeTimes` and after the last, the shape stays as it is then.
+  /// Returns the shapes around a time. Before the first of `shapeTimes` and after the last, the shape does not change.
   ShapesAround shapesAround(float time) const {
     size_t k = 0;
     while (k + 1 < shapes.size() && shapeTimes[k + 1] <= time) ++k;
@@ -88,7 +89,7 @@ struct Procedural {
   Motion cameraFromObject;
   std::vector<float> keyTimes;
   float displacementBound = 0;
-  uint32_t sampleKey = 0;  ///< As of objects.
+  uint32_t sampleKey = 0;  ///< The same as Object::sampleKey.
 };
 
 /// The contents of a procedural, which may have further procedurals.
@@ -120,16 +121,17 @@ struct Scene {
   /// Adds the objects of expanded(), and their solids, and finds their groups. Returns their indices.
   /// ShadingSystem::bindNewGroups has to be called next.
   std::vector<int> add(Expansion& expansion);
-  /// Drops the shapes of an object of add() that is not needed any more.
+  /// Drops the shapes of an object that add() has added and that is not needed any more.
   void drop(int object);
   /// Expands all procedurals that are `wanted`, nested ones included. Call it before any object is used.
   void expandAll(const std::function<bool(const Attributes&)>& wanted);
 
-  /// Returns a scene with its options, spaces, openings, lights and place alone.
+  /// Returns a scene that has only the options, spaces, openings, lights and location of this one.
   Scene withoutObjects() const;
 
   mat4 cameraFromWorldAtOpen() const { return cameraFromWorld.at(options.shutterOpen); }
-  /// Finds "current" from a named space (camera, current, world, or a CoordinateSystem). False if it is unknown.
+  /// Finds the transformation from a named space (camera, current, world, or a CoordinateSystem) to "current". Returns
+  /// false if the name is unknown.
   bool cameraFromNamed(const std::string& name, mat4& out) const;
 
  private:
@@ -141,7 +143,7 @@ struct Scene {
   float displacementBoundOf(const Attributes& attributes, const Motion& cameraFromObject, float time) const;
 
   /// The groups by a hash of all that their objects have in common. Requests share one Attributes until something
-  /// changes, so it is enough to compare the pointers.
+  /// changes, so attributes are compared by pointer.
   std::unordered_multimap<uint64_t, int> groupsByHash_;
   std::vector<int> dropped_;  ///< Indices that may be used again.
 };

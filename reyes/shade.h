@@ -15,8 +15,8 @@ class ShaderRegistry;
 /// the sun half a degree wide.
 constexpr int kSkyRows = 512, kSkyColumns = 1024;
 
-/// Runs a light shader alone, at points that nothing shades, so that photons learn what light goes where. Current
-/// space.
+/// The inputs and outputs of ShadingSystem::probe(), which runs a light shader alone, at points that nothing shades.
+/// Photons learn from it what light goes where. Everything is in current space.
 struct LightProbe {
   std::vector<vec3> P, N;  ///< Input: points to be lit, with their normals.
   /// Input: points on the emitter for LightKind::Area; for Sky directions towards it, and unit directions there.
@@ -66,22 +66,23 @@ class ShadingSystem {
   /// Runs the surface shader and the lights over a batch of one group. `out` is resized.
   void shade(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
-  /// Warns if a light takes too few samples for most of the points that the camera has been shown.
+  /// Warns if a light takes too few samples at most of the points that were shaded for the camera.
   void warnOfLightNoise() const;
 
   /// Runs the atmosphere, if there is one, between the eye and points that the camera sees. It changes their colours in
   /// place, and ShadedPoints::airCi.
   void atmosphere(const ShadePoints& points, ShadedPoints& out, const ShadeContext& context = {}) const;
   /// Runs the volume shader, in place, over the colours that rays bring through the volume to the surface that they
-  /// leave. The points are those of the surface, except that P is where each ray ends and I leads there from the
+  /// start from. The points are those of the surface, except that P is the end of each ray and I leads there from the
   /// surface. Returns false and leaves `out` alone if there is no volume shader or it has failed.
   bool crossVolume(ShadePoints& ends, bool inside, const ShadeContext& context, ShadedPoints& out) const;
   bool hasImager() const;
   /// Runs the imager shader, if there is one, in place.
   void image(ShadedPixels& pixels) const;
 
-  /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: what
-  /// the area light's shader sends from there, on the front, to the origin of the ray. Empty if nothing shines.
+  /// Gives the radiance that each point of a batch adds for camera and specular rays if its object is an emitter: the
+  /// area light's shader sends it from the front of that point to the origin of the ray. `radiance` is empty if nothing
+  /// shines.
   void areaLightRadiance(const ShadePoints& points, std::vector<vec3>& radiance,
                          const ShadeContext& context = {}) const;
   /// Returns the first request among those of all indirect lights but filters; empty if there are no such lights.

@@ -1,6 +1,6 @@
-// How a batch of points is to be shaded, and what it may ask of units that know more than the points: ray tracing and
-// global illumination. Light is in the RSL convention, E/pi; colours along rays are radiance. Space: current. Results
-// of points that are not active are left alone. Threads: const members may be called concurrently.
+// How a batch of points is to be shaded, and what shading may ask of units that know more than the points: ray tracing
+// and global illumination. Light is in the RSL convention, E/pi; colours along rays are radiance. Space: current.
+// Results of points that are not active are left alone. Threads: const members may be called concurrently.
 #pragma once
 #include <optional>
 #include <span>
@@ -40,7 +40,7 @@ struct RayOutput {
   float* c[3] = {nullptr, nullptr, nullptr};
 };
 
-/// The highlights that diffuse rays bring from what they meet.
+/// The highlights that diffuse rays bring from the surfaces that they hit.
 enum class HitHighlights : uint8_t {
   None,
   OfSpecular,  ///< Those of specular(): no brighter than Cl, so that few rays suffice.
@@ -74,10 +74,10 @@ struct ShadeContext {
       specularLimit = 1 << 20;  ///< Depths beyond which no ray follows, set by the objects on the way.
   std::string label{};          ///< The label of the ray that came here.
   bool seesAreaLights = true;   ///< True if that ray sees area lights.
-  /// Specular rays bring lamps and skies. False where photons have brought that light by mirrors.
+  /// Specular rays bring the light of lamps and skies. False where photons have brought that light by way of mirrors.
   bool specularRaysSeeLights = true;
-  /// Indexed by group: 1 if photons have brought the caustics of the group's mirrors and glass, so that
-  /// specularRaysSeeLights is false for specular rays from the group and for its highlights. Null: for none.
+  /// Indexed by group: 1 if photons have brought the caustics of the group's mirrors and glass. specularRaysSeeLights
+  /// then counts as false for specular rays from the group and for its highlights. Null: no group has such photons.
   const std::vector<uint8_t>* groupsWithCaustics = nullptr;
   HitHighlights highlights = HitHighlights::None;
   /// Answers of this batch, asked before shadow and gather rays are traced. Null: all rays are traced.
@@ -85,7 +85,7 @@ struct ShadeContext {
   Purpose purpose = Purpose::Picture;
   float importance = 1;  ///< The weight of what is seen here in the eye's picture.
   /// Number of paths that find indirect light at each point without records or maps, to measure the error of those. 0:
-  /// light comes as the frame's method has it.
+  /// the frame's method finds that light.
   int auditPaths = 0;
   /// Records are changed by an independent draw of their noise (GiServices::redrawRecords). With another seed this
   /// gives an independent picture of the frame, from which its standard error is known.
@@ -132,7 +132,7 @@ struct RayQuery {
   HitSides sides = HitSides::Both;
   std::optional<HitMode> mode;  ///< Empty if the attributes of the object that is met say it.
   float opacityThreshold = 1;   ///< A ray goes on behind transparent things until this much is covered.
-  int number = 0, count = 1;    ///< These are rays `number` of `count` from each point.
+  int number = 0, count = 1;    ///< This is ray `number` of `count` from each point.
   bool seesAreaLights = true;   ///< The rays see area lights.
   float importance = 1;         ///< The weight of the light that these rays bring.
   /// The radius of each ray's footprint at its start, and its growth for each unit of length. Null if rays have no
@@ -202,7 +202,7 @@ struct IndirectResult {
   TmVec3 dominant[3];  ///< Unit vectors for red, green and blue. Null pointers if they are not wanted.
 };
 
-/// Points of area lights, as others see them. Arrays of one length.
+/// Points of area lights, as other points see them. All arrays have one length.
 struct EmitterPoints {
   TmVec3 P, N;     ///< N has unit length, on the RISpec side.
   float* pdf;      ///< The probability density of samples there, over solid angle; 0 if nothing shines from there.
@@ -214,7 +214,7 @@ struct ShadowRays {
   bool solar = false;
   int sample = 0, samples = 1;
   const RayQuery* query = nullptr;  ///< The query of transmission() in a shader; null for lights.
-  int through = -1;                 ///< The geometry of this area light lets the rays pass; -1: of none does.
+  int through = -1;                 ///< The geometry of this area light lets the rays pass. -1: no geometry does.
 };
 
 /// One of several directions that points draw from their lobes: unit vectors.
@@ -244,7 +244,7 @@ class ShadeServices {
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
   /// Takes points all over area light `light`, evenly by area, on the sides that are seen and on others. `out.pdf` is
-  /// such that a mean weighed by 1 / (pi pdf) is the mean over the area. meetPdf is 0, as no direction finds them.
+  /// such that a mean weighted by 1 / (pi pdf) is the mean over the area. meetPdf is 0, as no direction finds them.
   /// Returns false if the light has no geometry.
   virtual bool sampleWholeEmitter(int, int, const float*, const float*, const EmitterPoints&) const { return false; }
   /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes. Where
@@ -252,8 +252,9 @@ class ShadeServices {
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                            const EmitterPoints& out) const = 0;
 
-  /// Interpolates what a query asks of the hemisphere around N: its mean radiance (E/pi), or in each of the three
-  /// colours the share that is covered. Returns false, and leaves `out` alone, if nothing is known and rays must tell.
+  /// Interpolates what a query asks of the hemisphere around N. That is its mean radiance (E/pi), or the share that is
+  /// covered, repeated in all three colours. Returns false, and leaves `out` alone, if nothing is known and rays must
+  /// tell.
   virtual bool interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                       const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) const;
 
@@ -268,8 +269,8 @@ class ShadeServices {
   /// Returns the box around all geometry of an area light; empty if it has none.
   virtual Bound3 emitterBound(int) const { return {}; }
 
-  /// Writes the light that Volumes scatter, and the share that they hide, between the eye and points that it sees, from
-  /// P - I to P. Returns false if there is no Volume.
+  /// Writes the light that Volumes scatter between the eye and the points that it sees, from P - I to P, and the share
+  /// of light that they absorb or scatter away. Returns false if there is no Volume.
   virtual bool volumesBefore(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const;
 
   /// Gives the indirect diffuse light on the side of N.

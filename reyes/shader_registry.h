@@ -19,7 +19,8 @@ const char* typeName(int32_t type);
 int floatsOf(int32_t type);
 /// Returns the name of a TmRole; null if no role has this number.
 const char* roleName(int32_t role);
-/// Returns the role that a shader's parameter declares, or that of the standard parameter of its name and type.
+/// Returns the role that a shader's parameter declares. If it declares none, returns the role of the standard parameter
+/// of the same name and type.
 TmRole roleOf(const TmShader& shader, const TmParamDecl& decl);
 /// Tells whether all that a light sends is in proportion to a parameter with this role.
 constexpr bool isFactor(TmRole role) { return role == TM_ROLE_SCALE || role == TM_ROLE_TINT; }
@@ -39,8 +40,9 @@ constexpr const char* kOfSurface = "surface:";
 /// The known shaders. Built-in ones and plugins share one table.
 class ShaderRegistry {
  public:
-  /// `standardFromFiles`: whether a file that is called as a shader whose look RISpec fixes ("plastic") comes before
-  /// that. If this is not given, it does so if it has parameters that the built-in one lacks.
+  /// `standardFromFiles`: whether a file with the name of a standard shader, whose look RISpec fixes ("plastic"), comes
+  /// before the built-in one. If this is not given, the file comes first if it has parameters that the built-in one
+  /// lacks.
   explicit ShaderRegistry(Log& log, PluginTrust trust = {}, std::optional<bool> standardFromFiles = {});
   ~ShaderRegistry();
   /// Checks versions and sizes before it touches anything else. Later libraries win over earlier ones.
@@ -56,9 +58,9 @@ class ShaderRegistry {
   ///   4 other built-in ones
   ///   5 NAME.so along `searchPath`
   /// `searchPath` is the scene's: folders separated by colons; if it is empty, the working folder. A plugin in a folder
-  /// that is not trusted is reported, once, and not loaded. So is one that a name with ".." or an absolute name leads
-  /// to, outside of the trusted folders. A .sl that has errors is reported with all of them. If a .sl has a name of
-  /// RISpec's, a message says whose shader is used.
+  /// that is not trusted is reported, once, and not loaded. So is a plugin outside of the trusted folders that an
+  /// absolute name, or a name with "..", leads to. A .sl that has errors is reported with all of them. If a .sl has a
+  /// name of RISpec's, a message says whose shader is used.
   const TmShader* find(const std::string& name, TmKind kind, const std::string& searchPath,
                        const std::string& beside = {});
   /// Compiles the texts of these shaders at once, on all threads, so that find() only has to look. It reports nothing:
@@ -76,8 +78,8 @@ class ShaderRegistry {
   std::vector<const TmShader*> all() const;
   /// Returns the origin that addLibrary() was given for a shader, or the file that it is from.
   std::string originOf(const TmShader& shader) const;
-  /// Returns all files that a shader is made of: its text with those that it includes, or its plugin; none of a
-  /// built-in one.
+  /// Returns all files that a shader is made of: its text with those that it includes, or its plugin. A built-in shader
+  /// has none.
   std::vector<std::string> filesOf(const TmShader& shader) const;
 
  private:

@@ -22,7 +22,7 @@ class GroupTraits {
   bool wantsSteps() const;
   /// Tells whether its surface shader leaves Oi = Os.
   bool keepsOpacity() const;
-  /// Tells whether its surface shader asks for rays, for more than occlusion() or highlights.
+  /// Tells whether its surface shader traces rays for anything besides occlusion() and highlights.
   bool tracesRays() const;
   /// Tells whether a shader may call occlusion() or indirectdiffuse() so that answers may be interpolated.
   bool asksHemispheres() const;
@@ -64,11 +64,11 @@ class LightTraits {
   bool shinesAllRound() const;
   /// Returns null if it is missing.
   const TmShader* shader() const;
-  /// Returns the product of those parameters that are factors (isFactor()), where its request gives `params`.
+  /// Returns the product of the light's parameters that are factors (isFactor()), as if its request gave `params`.
   vec3 factor(const std::vector<Param>& params) const;
   /// Returns its LightGroup; empty if its shader is missing or it is an indirect light.
   std::string group() const;
-  /// Tells whether it is a sky that is helped by openings which the program finds by itself.
+  /// Tells whether it is a sky that uses the openings which the program finds by itself.
   bool takesFoundPortals() const;
   /// Returns the portals of a light of LightKind::Sky: those that it names and that have a place and an area, or those
   /// that were found for it.

@@ -22,7 +22,7 @@ bool Solid::subtracted(int block) const {
 SolidWalk::SolidWalk(const Solid& solid)
     : solid_(&solid), inside_(solid.blocks_.size(), 0), satisfied_(solid.blocks_.size(), 0) {
   for (const Solid::Block& b : solid.blocks_)
-    // The difference wants the line to be outside of this operand.
+    // In a difference the line has to be outside of this operand.
     if (b.takenAway) ++satisfied_[static_cast<size_t>(b.parent)];
 }
 

@@ -1,7 +1,8 @@
 // Verb: Scene -> sub-patches small enough to dice, each with its raster bound. The steps are bound, cull, measure,
-// halve. A piece that crosses the near plane is halved until its micropolygons are small there. Pieces that no halving
-// makes small end too: a patch has a budget of visits, whose remainder coarse pieces inherit. The result depends on the
-// camera and on ShadingRate, never on buckets, crop or threads. Threads: pure except for the counters and the log.
+// halve. A piece that crosses the near plane is halved until its micropolygons are small there. Halving also ends for
+// pieces that it cannot make small, because each patch has a budget of visits. Coarse pieces inherit the rest of it.
+// The result depends on the camera and on ShadingRate, never on buckets, crop or threads. Threads: pure except for the
+// counters and the log.
 #pragma once
 #include <optional>
 #include <span>
@@ -35,8 +36,7 @@ struct Placement {
 
 /// Bounds a box of object space as the camera sees it at all of `keyTimes`. Displacement may leave the box by `margin`
 /// (camera space). `window`: raster pixels that have samples. Returns nothing if no point of the box can be seen in the
-/// window. Without `clipped` the far plane and clipping planes hide nothing: all surfaces of a solid are needed, those
-/// too.
+/// window. Without `clipped` the far plane and clipping planes hide nothing, because a solid needs all of its surfaces.
 std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
                                   float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
 
@@ -55,7 +55,8 @@ enum class Splitting : uint8_t { Wholly, Lazily };
 std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
                                    const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
                                    Splitting splitting = Splitting::Wholly, StopToken stop = {});
-/// Returns the next pieces of a coarse one, split lazily. In the end they are those of splitting wholly.
+/// Returns the next pieces of a coarse one, split lazily. Once no piece is coarse, they are the same as with
+/// Splitting::Wholly.
 std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
                                  const PixelRect& window, Stats& stats, Log& log, StopToken stop = {});
 

@@ -215,7 +215,7 @@ struct Attributes {
     int maxDiffuseDepth = 1,
         maxSpecularDepth = 2;  ///< Bounces that may follow one at this object; an earlier object's limit still applies.
     std::string subset;        ///< Attribute "grouping" "tracesubset": what rays from here see; if empty, they see all
-    /// Returns what a ray from here sees that asks for these sets.
+    /// Returns the sets that a ray from here sees if the ray itself asks for the sets `asked`.
     const std::string& subsetFor(const std::string& asked) const { return asked.empty() ? subset : asked; }
     float tessellation = 1;
     TessellationMode rate = TessellationMode::Fixed;
@@ -250,9 +250,10 @@ struct Attributes {
   bool binaryDice = false;  ///< Attribute "dice" "binary": counts are powers of two.
   UserParams user;
 
-  bool operator==(const Attributes&) const = default;  ///< Shaders are compared by pointer.
+  bool operator==(const Attributes&) const = default;  ///< Compares shaders by pointer.
 
-  /// Returns standard texture coordinates at surface parameters (u, v), where no primitive variable gives them.
+  /// Returns the texture coordinates at surface parameters (u, v), for primitives that have no primitive variables s
+  /// and t.
   vec2 textureAt(float u, float v) const {
     const auto& c = textureCoordinates;
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[2], c[3], u), v);

@@ -1,6 +1,6 @@
-// Noun: the variables of surfaces that every picture may show by name (RISpec 3.2 table 12.1), and two for denoisers.
-// It lists where each comes from, and how a picture takes it. Outputs of shaders and primitive variables are not listed
-// here.
+// Noun: the table of variables of surfaces that every picture may show by name (RISpec 3.2 table 12.1), and two for
+// denoisers. It tells where each comes from, and in which kind of channel a picture stores it. Outputs of shaders and
+// primitive variables are not listed here.
 #pragma once
 #include <string_view>
 
@@ -21,7 +21,7 @@ enum class VariableSource : uint8_t {
   Normal,      ///< The unit normal towards the viewer.
   Output,      ///< An output of the surface shader.
   LightGroup,  ///< The light that some of the lights bring.
-  Noise,       ///< The difference to Ci of another draw of all noise, over the root of 2; not found by shading.
+  Noise,       ///< The difference from Ci when all noise is drawn again, over the root of 2; not found by shading.
 };
 
 struct SurfaceVariable {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A checksum to which shaders add facts about the files that they name, and not their locations.
+/// A checksum to which shaders add the contents of the files that they name, but not their locations.
 struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
   std::map<fs::path, uint64_t> stamps{};  ///< Of files that have been looked for: many lights name one shader.
@@ -57,10 +57,10 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   sum.searchPaths = scene.options.searchPaths;
   Options options = scene.options;
   options.searchPaths.erase("texturecache");
-  std::erase_if(options.user, [](const auto& o) {  // of memory, and the order of work
+  std::erase_if(options.user, [](const auto& o) {  // options of memory, and of the order of work
     return o.first.starts_with("limits:") || o.first.starts_with("bucket:");
   });
-  std::map<std::string, mat4> spaces = scene.worldFromNamed;  // no openings: another camera finds others
+  std::map<std::string, mat4> spaces = scene.worldFromNamed;  // without openings: another camera finds different ones
   each(sum, options.searchPaths, options.user, options.shutterOpen, options.shutterClose, options.maxRayDepth, spaces);
   for (std::shared_ptr<LightCall> light : scene.lights) field(sum, light);
   std::map<std::shared_ptr<const Attributes>, uint64_t> known;

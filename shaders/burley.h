@@ -79,8 +79,8 @@ struct Lobes {
                 base = luminance(rsl::mix(m.specular0, Color{1, 1, 1}, F));
     coatShare = coat > 0 ? coat / (coat + base) : 0;
   }
-  /// Returns the share of the lobes in what the viewer sees in even light, about, if the matte part is white: noise of
-  /// highlights on dark paint is dark.
+  /// Returns roughly the share of the lobes in what the viewer sees in even light. The matte part counts as white,
+  /// because highlights on dark paint have dark noise.
   float shareOfLobes() const {
     const float F = fresnelWeight(nv), glossy = luminance(rsl::mix(material.specular0, Color{1, 1, 1}, F)) +
                                                 material.coat * rsl::mix(0.04f, 1, F);

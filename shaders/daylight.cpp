@@ -11,8 +11,7 @@ rsl::VectorParam zenith("zenith", {0, 1, 0}, "up");
 rsl::FloatParam turbidity("turbidity", 2, "haziness, 1.7 to 10");
 rsl::FloatParam skySamples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
-rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+rsl::StringParam portals("portals", "", "CoordinateSystems whose unit squares are windows that the sky shines through",
                          TM_ROLE_SKY_PORTALS);
 rsl::FloatParam sunSamples("samples", 8, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam sunsize("sunsize", 1, "scale of the sun's diameter of 0.53 degrees; its light stays");

@@ -71,12 +71,12 @@ struct Inputs {
 
 /// One batch of points with their materials.
 class Glossy {
-  /// Times the directions that lights want which a point draws that shows nothing but its lobes, as metal does. With
-  /// more, the noise of the lights' own samples is all that is left.
+  /// A point that shows nothing but its lobes, as metal does, draws this many times the directions that lights want.
+  /// With more, only the noise of the lights' own samples would be left.
   static constexpr int kMostTimes = 4;
 
  public:
-  /// `rays`: directions that mirror the scene, at least; 0: lights alone.
+  /// `rays`: least number of directions that mirror the scene; 0: only lights are mirrored.
   Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs, int rays)
       : b_(b),
         g_(b.g),
@@ -133,7 +133,8 @@ class Glossy {
   }
 
  private:
-  /// Sets L_, which is 0 where the direction goes below the surface, and density_.
+  /// Sets L_ and pdf_. Both are 0 where the direction goes below the surface, and for points that draw fewer
+  /// directions.
   void draw(int k) {
     g_->call->stratified(g_->host, g_, k, drawn_, xi0_.data(), xi1_.data());
     for (int i : b_) {
@@ -152,7 +153,7 @@ class Glossy {
   }
   int numberOf(int i) const { return number_[static_cast<size_t>(i)]; }
 
-  /// Returns the greatest number of directions. In repeated reflections there are only those that lights want, because
+  /// Returns the greatest number of directions. In repeated reflections there are only as many as lights want, because
   /// rays would multiply.
   int directions() const { return std::max(least_, b_.rayDepth() > 0 ? counted_ : kMostTimes * counted_); }
   /// Returns the greatest number of directions along which the scene is mirrored. What they meet costs far more than
@@ -169,8 +170,8 @@ class Glossy {
 
   const rsl::Batch& b_;
   const TmGrid* const g_;
-  /// The power heuristic counts so many directions of a point, however many it draws: more of them remove noise of the
-  /// sky, but small lamps are better found by their own samples.
+  /// The power heuristic counts this many directions of a point, however many it draws: more of them remove noise of
+  /// the sky, but small lamps are better found by their own samples.
   const int counted_;
   const bool mirrors_;
   const int least_, drawn_;

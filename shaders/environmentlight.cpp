@@ -10,8 +10,7 @@ rsl::StringParam mapspace("mapspace", "world", "space whose +z is the top of the
                           TM_ROLE_SKY_SPACE);
 rsl::FloatParam samples("samples", 64, "directions for each shaded point", TM_ROLE_SAMPLES);
 rsl::FloatParam visible("visible", 1, "0: specular rays do not see it", TM_ROLE_VISIBLE);
-rsl::StringParam portals("portals", "",
-                         "CoordinateSystems, the unit squares of which are windows that the sky shines through",
+rsl::StringParam portals("portals", "", "CoordinateSystems whose unit squares are windows that the sky shines through",
                          TM_ROLE_SKY_PORTALS);
 
 // Angle in radians over which the map is filtered: that of one of the 1024 columns of cells by which its brightness is

@@ -6,7 +6,8 @@ rsl::FloatParam Kr("Kr", 1, "weight of what is mirrored");
 rsl::FloatParam Kt("Kt", 1, "weight of what is seen through it");
 rsl::ColorParam transmitcolor("transmitcolor", {1, 1, 1}, "tint at each surface that light passes");
 
-/// Returns the index of refraction at the hit. Normals point outwards, so light that goes against Ng enters.
+/// Returns the index of the side that the ray comes from over that of the other side. Normals point outwards, so a ray
+/// that goes against Ng enters.
 float etaAt(const rsl::Batch& b, int i) {
   const bool enters = rsl::dot(b.I(i), b.Ng(i)) < 0;
   return enters ? 1 / eta(b.g, i) : eta(b.g, i);

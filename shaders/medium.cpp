@@ -22,8 +22,8 @@ rsl::StringParam map(
 
 rsl::Color extinction(const TmGrid* g, int i) { return scattering(g, i) + absorption(g, i); }
 
-rsl::Color passing(rsl::Color extinction, float way) {
-  return {std::exp(-extinction.x * way), std::exp(-extinction.y * way), std::exp(-extinction.z * way)};
+rsl::Color passing(rsl::Color extinction, float amount) {
+  return {std::exp(-extinction.x * amount), std::exp(-extinction.y * amount), std::exp(-extinction.z * amount)};
 }
 
 /// Returns the phase function times pi, as the Cl of a lamp is E/pi.
@@ -34,14 +34,16 @@ float phase(float g, float cosine) {
 
 /// Draws amounts along a ray, in proportion to the light that passes in the channel that is dimmed least.
 struct ByPassing {
-  float way, rate;
+  float whole, rate;  ///< The amount along the whole ray, and the extinction of that channel.
 
   ByPassing(rsl::Color extinction, float amount)
-      : way(amount), rate(std::min({extinction.x, extinction.y, extinction.z})) {}
-  bool isThin() const { return rate * way < 1e-4f; }
-  float at(float share) const { return isThin() ? share * way : -std::log1p(share * std::expm1(-rate * way)) / rate; }
+      : whole(amount), rate(std::min({extinction.x, extinction.y, extinction.z})) {}
+  bool isThin() const { return rate * whole < 1e-4f; }
+  float at(float share) const {
+    return isThin() ? share * whole : -std::log1p(share * std::expm1(-rate * whole)) / rate;
+  }
   float density(float amount) const {
-    return isThin() ? 1 / way : rate * std::exp(-rate * amount) / -std::expm1(-rate * way);
+    return isThin() ? 1 / whole : rate * std::exp(-rate * amount) / -std::expm1(-rate * whole);
   }
 };
 
@@ -52,11 +54,11 @@ struct ByLight {
   float beside = 0, nearest = 0, from = 0, to = 0;
 
   ByLight() = default;
-  ByLight(float besideRay, float nearestAt, float way)
-      : beside(std::max(besideRay, 1e-5f * way)),
+  ByLight(float besideRay, float nearestAt, float rayLength)
+      : beside(std::max(besideRay, 1e-5f * rayLength)),
         nearest(nearestAt),
         from(std::atan(-nearest / beside)),
-        to(std::atan((way - nearest) / beside)) {}
+        to(std::atan((rayLength - nearest) / beside)) {}
   float at(float share) const { return nearest + beside * std::tan(from + share * (to - from)); }
   float density(float distance) const {
     const float past = distance - nearest;
@@ -95,9 +97,9 @@ class LightAround {
     for (int i : b_) {
       if (!sample.lit[i]) continue;
       const float distance = rsl::length(rsl::get(sample.L, i)) * units_[i];
-      const float way = isAtInfinity ? lightway(b_.g, i) : std::min(distance, lightway(b_.g, i));
+      const float dimmed = isAtInfinity ? lightway(b_.g, i) : std::min(distance, lightway(b_.g, i));
       const float onwards = rsl::dot(rsl::get(sample.direction, i), rsl::normalize(b_.I(i)));
-      const rsl::Color arrives = passing(extinction(b_.g, i), way) * rsl::get(sample.Cl, i);
+      const rsl::Color arrives = passing(extinction(b_.g, i), dimmed) * rsl::get(sample.Cl, i);
       out.set(i, out[i] + phase(anisotropy(b_.g, i), onwards) * arrives);
     }
   }
@@ -139,14 +141,14 @@ class Places {
   }
 
   int kinds() const { return 1 + static_cast<int>(lights_.size()); }
-  float way(int i) const { return whole_.distance[i]; }
+  float rayLength(int i) const { return whole_.distance[i]; }
   /// Finds the places of one kind at these shares.
   void at(int kind, const rsl::Array& share, Place& out) const {
     for (int i : b_)
       if (kind == 0)
         out.amount[i] = std::min(std::max(passing(i).at(share[i]), 0.0f), whole_.amount[i]);
       else
-        out.distance[i] = std::min(std::max(light(kind, i).at(share[i]), 0.0f), way(i));
+        out.distance[i] = std::min(std::max(light(kind, i).at(share[i]), 0.0f), rayLength(i));
     out.find(b_, kind == 0);
   }
   /// Returns the sum of the densities of all kinds over the distance, for each unit of the medium's density there.
@@ -164,8 +166,8 @@ class Places {
     for (int i : b_) {
       const rsl::Vec3 along = rsl::normalize(b_.I(i)), L = rsl::get(sample.L, i);
       const float past = rsl::dot(L, along);
-      of[static_cast<size_t>(i)] = {rsl::length(L - past * along) * units_[i], 0.5f * way(i) + past * units_[i],
-                                    way(i)};
+      of[static_cast<size_t>(i)] = {rsl::length(L - past * along) * units_[i], 0.5f * rayLength(i) + past * units_[i],
+                                    rayLength(i)};
     }
   }
   ByPassing passing(int i) const { return {extinction(b_.g, i), whole_.amount[i]}; }
@@ -197,7 +199,7 @@ rsl::Vec3Array scattered(const rsl::Batch& b, const rsl::Array& units, const Pla
     const int kind = k % kinds;
     b.g->call->stratified(b.g->host, b.g, k / kinds, each, forPassing.data(), forLights.data());
     places.at(kind, kind == 0 ? forPassing : forLights, at);
-    for (int i : b) Q.set(i, b.P(i) - (1 - at.distance[i] / std::max(places.way(i), 1e-30f)) * b.I(i));
+    for (int i : b) Q.set(i, b.P(i) - (1 - at.distance[i] / std::max(places.rayLength(i), 1e-30f)) * b.I(i));
     const rsl::Vec3Array here = light.at(Q);
     for (int i : b) {
       if (!(at.density[i] > 0)) continue;

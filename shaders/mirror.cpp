@@ -5,7 +5,7 @@ rsl::FloatParam Kr("Kr", 1, "weight of what is mirrored");
 rsl::ColorParam specularcolor("specularcolor", {1, 1, 1}, "tint of what is mirrored");
 rsl::UniformFloatParam blur("blur", 0,
                             "half angle of the cone of reflected rays, radians; up to 0.17 they are specular rays");
-rsl::UniformFloatParam samples("samples", 1, "reflected rays a point");
+rsl::UniformFloatParam samples("samples", 1, "reflected rays for each point");
 
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

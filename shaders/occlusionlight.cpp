@@ -3,7 +3,7 @@
 namespace {
 rsl::FloatParam intensity("intensity", 1, "scale", TM_ROLE_SCALE);
 rsl::ColorParam lightcolor("lightcolor", {1, 1, 1}, "radiance of what is all around", TM_ROLE_TINT);
-rsl::UniformFloatParam samples("samples", 64, "rays a point");
+rsl::UniformFloatParam samples("samples", 64, "rays for each point");
 rsl::UniformFloatParam coneangle("coneangle", 1.5707963f, "half angle around the normal that is looked at");
 rsl::UniformFloatParam maxdist("maxdist", 1e30f, "what is farther covers nothing");
 rsl::UniformFloatParam falloff("falloff", 0, "what is at distance d covers exp(-falloff d); 0: wholly");

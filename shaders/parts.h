@@ -8,7 +8,7 @@ struct DiffuseParts {
   rsl::ColorOutput diffuse{"diffuse", "share of direct diffuse light"};
   rsl::ColorOutput indirectdiffuse{"indirectdiffuse", "share of indirect diffuse light"};
 
-  /// `base` is the factor on ambient() and diffuse(), opacity included.
+  /// `ofAmbient` and `ofDiffuse` return a point's factors on ambient() and diffuse(), opacity included.
   template <class Ambient, class Diffuse>
   void store(const rsl::Batch& b, TmConstVec3 Nf, const rsl::Vec3Array& fromAmbient, const Ambient& ofAmbient,
              const Diffuse& ofDiffuse) const {

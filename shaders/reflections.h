@@ -15,8 +15,8 @@
 /// not depend on the batch.
 class Reflections {
  public:
-  /// Directions are followed in sets of so many, which bounds the memory. It is a power of two, so that each set of
-  /// Sobol points is as even as all.
+  /// Directions are followed in sets of this many, which bounds the memory. It is a power of two, so that each set of
+  /// Sobol points is as even as the whole.
   static constexpr int kTogether = 64;
 
   /// `number`: how many directions each point draws, at most `directions`; `least` of them are shaded even where little

@@ -2,17 +2,22 @@
 // from where it enters to where it leaves, through the fluence that `tomales render --gi atlas --atlas maps` leaves of
 // what the ball's Interior scatters. In RSL:
 //
-//   surface milk(color scattering = 1, absorption = 0; float steps = 32, radius = 0; string map =
-//   "maps/scene.volume.bkm") {
-//     vector In = normalize(I), Ib = vtransform("object", In);                              /* the ball: radius 1
-//     around the origin */ float chord = -2 * (vector(transform("object", P)) . Ib) / (Ib . Ib), stepsize =
-//     length(vtransform("world", chord * In)) / steps; color extinction = scattering + absorption, clear = 1, Cv = 0;
+//   surface milk(color scattering = 1, absorption = 0; float steps = 32, radius = 0;
+//                string map = "maps/scene.volume.bkm") {
+//     /* The ball has radius 1 around the origin. */
+//     vector In = normalize(I), Ib = vtransform("object", In);
+//     float chord = -2 * (vector(transform("object", P)) . Ib) / (Ib . Ib);
+//     float stepsize = length(vtransform("world", chord * In)) / steps;
+//     color extinction = scattering + absorption, clear = 1, Cv = 0;
+//     float i;
 //     for (i = 0; i < steps; i += 1) {
 //       color fluence = 0;
 //       texture3d(map, P + (i + .5) / steps * chord * In, normal 0, "fluence", fluence, "filterradius", radius);
-//       color seen = exp(-extinction * stepsize);
-//       Cv += clear * (1 - seen) * scattering / extinction * fluence / (4 * PI);             /* scattered evenly in all
-//       directions */ clear *= seen;
+//       color depth = extinction * stepsize;
+//       color seen = color(exp(-comp(depth, 0)), exp(-comp(depth, 1)), exp(-comp(depth, 2)));
+//       /* Light is scattered evenly in all directions. */
+//       Cv += clear * (1 - seen) * scattering / extinction * fluence / (4 * PI);
+//       clear *= seen;
 //     }
 //     Ci = Cv;  Oi = 1 - clear;
 //   }

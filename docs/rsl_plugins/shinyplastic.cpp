@@ -7,8 +7,8 @@
 //     fresnel(-V, Nf, 1 / eta, kr, kt);
 //     color reflection = trace(P, reflect(-V, Nf));
 //     Oi = Os;
-//     Ci = Os * (Cs * (Ka * ambient() + Kd * kt * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness) + Kr *
-//     kr * reflection);
+//     Ci = Os * (Cs * (Ka * ambient() + Kd * kt * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness) +
+//                Kr * kr * reflection);
 //   }
 #include <reyes/sl.h>
 

@@ -1,13 +1,15 @@
 // A spotlight with soft shadows that projects a slide. In RSL:
 //
 //   light slidespot(float intensity = 1, coneangle = radians(30), conedeltaangle = radians(5), shadowsamples = 16,
-//   samplecone = 0;
-//                   color lightcolor = 1; point from = (0, 0, 0), to = (0, 0, 1); vector up = (0, 1, 0); string
-//                   slidename = "") {
+//                         samplecone = 0;
+//                   color lightcolor = 1; point from = (0, 0, 0), to = (0, 0, 1); vector up = (0, 1, 0);
+//                   string slidename = "") {
 //     vector A = normalize(to - from);
-//     /* the slide in the space of the light: in that of a camera that mirrors, the product would point the other way,
-//     and the slide be mirrored */ vector axis = normalize(vtransform("shader", A)), right = normalize(axis ^
-//     vtransform("shader", up)), top = right ^ axis; illuminate (from, A, coneangle) {
+//     /* The slide is placed in the space of the light. In the space of a camera that mirrors, the cross product
+//        would point the other way, and the slide would be mirrored. */
+//     vector axis = normalize(vtransform("shader", A)), right = normalize(axis ^ vtransform("shader", up));
+//     vector top = right ^ axis;
+//     illuminate (from, A, coneangle) {
 //       float c = normalize(L) . A, width = tan(coneangle);
 //       Cl = intensity * lightcolor * smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c) / (L . L);
 //       if (slidename != "") {

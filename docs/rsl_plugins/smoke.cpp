@@ -1,14 +1,14 @@
 // Smoke, marched along the ray from the eye and lit on the way: lights shine into it, what stands in it casts shadows
 // through it, and it dims the light that has to cross it. In RSL:
 //
-//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2, lightsteps = 4; color smokecolor =
-//   .8) {
+//   volume smoke(float density = 1, frequency = 1, steps = 32, octaves = 3, top = 2, lightsteps = 4;
+//                color smokecolor = .8) {
 //     float smokeat(point Q) {
-//       float d = 0, amp = 1, f = frequency;
+//       float d = 0, amp = 1, f = frequency, k;
 //       for (k = 0; k < octaves; k += 1) { d += amp * (2 * noise(f * Q) - 1);  f *= 2;  amp *= .5; }
 //       return density * smoothstep(0, .7, d + .3) * (1 - smoothstep(0, top, ycomp(Q)));
 //     }
-//     float stepsize = length(I) / steps, clear = 1;
+//     float stepsize = length(I) / steps, clear = 1, i, k;
 //     color Cv = 0;
 //     for (i = 0; i < steps; i += 1) {
 //       point Q = P - ((i + .5) / steps) * I;                       /* from the surface to the eye */

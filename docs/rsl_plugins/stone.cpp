@@ -2,7 +2,7 @@
 //
 //   displacement stone(float Km = .1, frequency = 2) {
 //     point Q = frequency * transform("shader", P);
-//     float h = 0, amp = 1;
+//     float h = 0, amp = 1, k;
 //     for (k = 0; k < 4; k += 1) { h += amp * abs(2 * noise(Q) - 1);  Q *= 2;  amp *= .5; }
 //     P -= Km * h * normalize(N);
 //     N = calculatenormal(P);

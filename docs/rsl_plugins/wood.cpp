@@ -11,8 +11,8 @@
 //     color base = mix(lightwood, darkwood, clamp(late + .25 * grain, 0, 1));
 //     normal Nf = faceforward(normalize(N), I);
 //     Oi = Os;
-//     Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) + (1 - .5 * grain) * Ks * shine * specular(Nf, -normalize(I),
-//     roughness));
+//     Ci = Os * (base * (ambient() + Kd * diffuse(Nf)) +
+//                (1 - .5 * grain) * Ks * shine * specular(Nf, -normalize(I), roughness));
 //   }
 #include <reyes/sl.h>
 

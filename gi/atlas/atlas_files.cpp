@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kCaustic = ".caustic";  ///< Ending of the names of caustic maps.
 constexpr const char* kVolume = "scene.volume";
-/// Bytes of one emitted photon: the mean number of its surfaces times bytes of a stored photon.
+/// Bytes for each emitted photon: the mean number of times that it is stored, times the bytes of a stored photon.
 constexpr double kStoredBytes = 2.5 * 36;
 /// Share of its map's area that a surface needs to have a number. Smaller ones, such as leaves, share their photons.
 constexpr double kLeastOfMap = 1e-3;
@@ -49,7 +49,7 @@ uint64_t brickInputs(const PointFile& points, const BrickSettings& settings) {
   return contentSum(kAtlasMethod, points.contents(), maxError, maxDepth, radiusScale, ignoreNormals, coarseness);
 }
 
-/// Numbers the surfaces of each map from 1; 0: small ones.
+/// Numbers the surfaces of each map from 1; small ones get 0.
 std::vector<int> numbered(const std::vector<std::string>& maps, const std::vector<double>& areas) {
   struct Map {
     double area = 0;
@@ -201,7 +201,7 @@ void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const 
                others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
     const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : settings.irradiance;
     const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
-    EstimateFigures figures;  // without estimates if they are kept, or made by another part
+    EstimateFigures figures;  // stay empty if the estimates are kept, or made by another part
     if (!others) {
       if (pointsMadeFrom(points).inputs !=
           irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {

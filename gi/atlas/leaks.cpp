@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr size_t kPlaces = 2048;  ///< Number of places in all maps together.
 constexpr int kDirections = 8;
-/// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate is made of
-/// fifty photons and stands for the place of four, with disks that overlap.
+/// The distance of the farthest photons of an estimate, in radii of the disk that it stands for. An estimate averages
+/// fifty photons and stands for the area of four, with disks that overlap.
 constexpr float kReach = 2.2f;
-/// A place leaks if there is at least so many times as much light behind the wall. Less makes a smudge at an edge.
+/// A place leaks if there is at least this many times as much light behind the wall. Less makes a smudge at an edge.
 constexpr float kMuchMore = 8;
 constexpr double kMostArea = 0.002;  ///< The share of all area that may leak without a warning.
 
@@ -55,7 +55,7 @@ std::vector<Place> placesOf(const PointFile& file, size_t count) {
 
 class LeakTest {
  public:
-  /// `surfaces`: the numbers of the groups in this map; -1: those of other maps.
+  /// `surfaces`: indexed by group, its surface number in this map; -1 if the group belongs to another map.
   LeakTest(const RayScene& rays, const BrickMap& map, const std::vector<int>& surfaces)
       : rays_(rays), map_(map), surfaces_(surfaces), world_(rays.scene()), current_(glm::inverse(world_.points)) {}
 
@@ -132,11 +132,12 @@ void warnOfLeaks(const fs::path& folder, const Scene& scene, const RayScene& ray
   const auto worst =
       std::max_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   const Object& wall = scene.objects[static_cast<size_t>(worst->first)];
-  log.report(Severity::Warning, "photon-walls", wall.where,
-             fmt::format("{}: estimates of irradiance reach to its other side, where there is more light: {:.1f} % of "
-                         "all surfaces are too bright along its edges, and what they light (--atlas-direct sampled is "
-                         "right there)",
-                         objectName(wall), 100 * static_cast<double>(leaking) / static_cast<double>(tested)));
+  log.report(
+      Severity::Warning, "photon-walls", wall.where,
+      fmt::format("{}: irradiance estimates reach through it to its other side, where there is more light. {:.1f} "
+                  "% of all surfaces are too bright along its edges, and so is what they light (--atlas-direct "
+                  "sampled avoids this)",
+                  objectName(wall), 100 * static_cast<double>(leaking) / static_cast<double>(tested)));
 }
 
 }  // namespace tomales

@@ -69,7 +69,7 @@ ShownDisk shownBy(const RayScene& rays) {
 void warnOfEstimates(const Scene& scene, const MapNames& names, const std::vector<MapFigures>& maps, Log& log) {
   uint64_t photons = 0;
   for (const MapFigures& m : maps) photons += m.photons;
-  // `weight` is that of all estimates of a map; its mean should not exceed `most`.
+  // `weight` returns a sum over all estimates of a map, whose mean should not exceed `most`.
   const auto report = [&](const char* code, const auto& weight, double most, const char* why) {
     const MapFigures* worst = nullptr;
     double worstMean = 0;

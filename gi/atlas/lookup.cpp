@@ -76,7 +76,7 @@ const BrickMap* IrradianceAtlas::open(const fs::path& file) {
   }
   maps_.push_back(std::make_unique<const BrickMap>(file.string(), cache_));
   if (maps_.back()->width() != 3)
-    throw FileError(fmt::format("\"{}\" is no irradiance map: it has not three channels", file.string()));
+    throw FileError(fmt::format("\"{}\" is no irradiance map: it does not have three channels", file.string()));
   return maps_.back().get();
 }
 

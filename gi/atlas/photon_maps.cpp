@@ -76,7 +76,7 @@ void PhotonMapFiles::finish(const MadeFrom& madeFrom, Log& log) {
     if (file->count() == 0)
       log.report(direct_ ? Severity::Warning : Severity::Info, "photons-none", {},
                  fmt::format("no photon came to the objects of photon map \"{}\"{}", name,
-                             direct_ ? "" : " but straight from lights"));
+                             direct_ ? "" : " except straight from lights"));
     ++file;
   }
   set.finish();

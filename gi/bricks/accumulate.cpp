@@ -8,12 +8,13 @@
 namespace tomales {
 namespace {
 
-/// The six sides of a box and a few directions between. More than that in one voxel are foliage or noise.
+/// Room for the six sides of a box and a few directions between. More layers than that in one voxel are foliage or
+/// noise.
 constexpr int kMostLayers = 12;
-/// In a voxel of so many layers, surfaces that face alike share one. Coarse voxels meet many surfaces, and finer voxels
-/// keep them apart.
+/// In a voxel of this many layers, surfaces that face alike share one. Coarse voxels meet many surfaces, and finer
+/// voxels keep them apart.
 constexpr int kSharedFrom = 6;
-/// Bricks hold no more than this, so that the differences of their values are floats too.
+/// Bricks hold no larger values than this, so that differences of two values do not overflow.
 constexpr float kLargestMean = std::numeric_limits<float>::max() / 4;
 
 /// Sums of enormous light overflow, and files with numbers that are not finite count as damaged.

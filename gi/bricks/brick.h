@@ -16,7 +16,7 @@ namespace tomales {
 
 constexpr int kBrickWidth = 8;  ///< Voxels along an edge.
 constexpr int kBrickVoxels = kBrickWidth * kBrickWidth * kBrickWidth;
-/// Voxel coordinates of a map of so many levels, and those beside them, are exact in float.
+/// Voxel coordinates of a map with this many levels, and those next to them, are exact in float.
 constexpr int kMostLevels = 22;
 
 /// Normals farther apart than this do not share a layer, and do not answer each other's lookups.
@@ -38,7 +38,7 @@ inline int voxelIndex(int x, int y, int z) { return (z * kBrickWidth + y) * kBri
 struct BrickLayer {
   /// The mean normal in 127ths of its length, off by less than half a degree. Zero for volume data.
   int8_t x = 0, y = 0, z = 0;
-  uint8_t incoherent : 1 = 0;  ///< Different layers had to be merged: finer bricks tell them apart.
+  uint8_t incoherent : 1 = 0;  ///< Layers that face apart had to be merged: finer bricks tell them apart.
   uint8_t surface : 7 = 0;     ///< PointCloud::surface() of the data; 0: not known, or several.
   /// The mask of the bits of `surface`, the largest number of which is kAcrossWalls.
   static constexpr int kSurfaceMask = kAcrossWalls;
@@ -67,7 +67,7 @@ struct BrickLayer {
   }
 };
 
-/// A brick, packed as it is in the file: the smaller its bricks, the more a cache holds.
+/// A brick, packed as it is in the file, so that a cache holds as many as possible.
 class Brick {
  public:
   /// The parts that a brick is made from, with layers in the order of their voxels.

@@ -11,7 +11,7 @@ struct BrickMap::Sum {
   float* data = nullptr;
   float weight = 0;
   int surface = 0;           ///< The surface that is asked for.
-  bool acrossWalls = false;  ///< Some voxel has data of kAcrossWalls on this side.
+  bool acrossWalls = false;  ///< Some voxel that faces as the lookup does has data of kAcrossWalls.
   // Most voxels of a lookup lie in one brick, so the last one found is kept.
   int level = -1;                         ///< Level of the last brick that was searched.
   glm::ivec3 place{0};                    ///< Its position, in bricks of that level.
@@ -28,7 +28,7 @@ struct BrickMap::Sum {
 };
 
 BrickMap::BrickMap(const PointCloud& cloud) : channels_(dataOf(cloud.channels)), width_(widthOf(channels_)) {
-  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats a point", kMostWidth));
+  if (width_ > kMostWidth) throw FileError(fmt::format("more than {} floats per point", kMostWidth));
   BrickSettings settings;
   settings.maxError = 0;
   tree_ = buildBricks(cloud, settings, [&](const Brick& brick) {
@@ -83,8 +83,8 @@ struct VoxelOverlap {
   int first, last;
   std::array<float, 4> overlap;
 
-  /// Coordinates are in voxels, of which there are `end`; `half` is at most one. So there are three voxels, or four by
-  /// rounding.
+  /// Coordinates are in voxels, of which there are `end`; `half` is at most one. So it overlaps at most three voxels,
+  /// or four after rounding.
   VoxelOverlap(float center, float half, int end) {
     const float lo = center - half, hi = center + half;
     first = std::min(static_cast<int>(std::max(lo, 0.0f)), end - 1);
@@ -170,8 +170,8 @@ void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, floa
   }
 }
 
-/// Adds data of finer voxels, which keep directions apart that were merged in this one (3.3). That replaces every layer
-/// of it. Returns false if nothing is found there.
+/// Adds the data of finer voxels in place of this one, whose layers merge directions that the finer ones keep apart
+/// (3.3). Returns false if nothing is found there.
 bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const float before = sum.weight;
   for (int k = 0; k < 8; ++k)
@@ -197,7 +197,8 @@ BuiltBricks write(const Points& points, const std::vector<CloudChannel>& channel
 
 BuiltBricks writeBrickMap(const PointCloud& cloud, const BrickSettings& settings, const std::string& path,
                           const MadeFrom& madeFrom) {
-  if (cloud.width() > kMostWidth) throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+  if (cloud.width() > kMostWidth)
+    throw FileError(fmt::format("\"{}\": more than {} floats per point", path, kMostWidth));
   return write(cloud, dataOf(cloud.channels), settings, path, madeFrom);
 }
 

@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kShards = 16;         // Each part has its own lock and share of the budget.
+constexpr size_t kShards = 16;         // Each shard has its own lock and share of the budget.
 constexpr size_t kBytesOfEntry = 192;  // Bytes for the index, the queue and the allocator, roughly.
 
 }  // namespace

@@ -14,7 +14,7 @@ using BrickPtr = std::shared_ptr<const Brick>;
 
 class BrickCache {
  public:
-  static constexpr size_t kDefaultBytes = 10 << 20;  ///< that of the paper
+  static constexpr size_t kDefaultBytes = 10 << 20;  ///< The paper's size.
 
   explicit BrickCache(size_t bytes = kDefaultBytes);
   ~BrickCache();

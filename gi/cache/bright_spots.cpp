@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostSpots = 64, kMostHits = 1 << 15;
-constexpr size_t kLeastHits = 4;  ///< A spot needs so many hits. A single one may be chance, or seen in a mirror.
+constexpr size_t kLeastHits = 4;  ///< A spot needs this many hits. A single one may be chance, or seen in a mirror.
 constexpr size_t kHitsToSplit = 16;
 /// Least distance to a spot, in its radii. The rays of the hemisphere find nearer spots.
 constexpr float kNearest = 3;

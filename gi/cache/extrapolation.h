@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Returns the change of E/pi that the gradients predict, for a step from the record's position and a turn, the cross
-/// product of the record's normal and the other one.
+/// Returns the change of E/pi that the gradients predict, for a step from the record's position and a turn, which is
+/// the cross product of the record's normal and the new one.
 inline vec3 changeBy(const IrradianceExpansion& light, const vec3& step, const vec3& turn) {
   vec3 change;
   for (int c = 0; c < 3; ++c)

@@ -43,12 +43,13 @@ bool comesBefore(const PointCloud& cloud, uint32_t a, uint32_t b) {
   return std::lexicographical_compare(cloud.at(a), cloud.at(a) + width, cloud.at(b), cloud.at(b) + width);
 }
 
-/// Returns the sorted points without copies. Buckets on whose border a micropolygon lies shade it each for itself.
+/// Returns the sorted points without duplicates. A micropolygon on the border of buckets is shaded once in each of
+/// them.
 PointCloud sorted(const PointCloud& cloud) {
   std::vector<uint32_t> order(cloud.count());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return comesBefore(cloud, a, b); });
-  // the points are sorted, so that a does not follow b
+  // the points are sorted, so b never comes before a
   const auto same = [&](uint32_t a, uint32_t b) { return !comesBefore(cloud, a, b); };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
   PointCloud out;
@@ -161,7 +162,7 @@ bool CloudFiles::lookUp(const CloudQuery& q, const std::vector<CloudValue>& valu
 
 bool CloudFiles::photons(const CloudQuery& q, const TmPhotonOptions& given, TmVec3 E, std::string& problem) {
   TmPhotonOptions lookup = given;
-  lookup.estimator = std::max(2, lookup.estimator);  // of one, all its power is in one point
+  lookup.estimator = std::max(2, lookup.estimator);  // a single photon would have all its power in one point
   lookup.maxDistance = std::max(0.0f, lookup.maxDistance);
   const Opened<BrickMap>& file = opened(q.file, &lookup);
   problem = file.problem;

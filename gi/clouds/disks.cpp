@@ -13,10 +13,10 @@ constexpr float kSquaredReach = 0.625f;
 // A disk nearer than this share of its radius, or of that of the micropolygon that looks, belongs to the point itself
 // or to its neighbours.
 constexpr float kOwnPlane = 0.3f;
-// The middle of a micropolygon that spans a curved surface lies below that, and a level line of sight leaves the
-// surface only beyond the radius. So backs that are nearer than that are the surface's own.
+// The middle of a micropolygon on a convex surface lies below it, and a level line of sight leaves the surface only
+// beyond the micropolygon's radius. So backs that are nearer than that are the surface's own.
 constexpr float kOwnBack = 1.0f;
-// A disk that is so much larger than a near micropolygon shows as a blotch.
+// A disk that is this many times as large as a near micropolygon shows as a blotch.
 constexpr float kMuchLarger = 3.0f;
 
 }  // namespace
@@ -124,7 +124,7 @@ class Disks::LineOfSight {
     return std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, reach_});
   }
 
-  /// Returns the distance up to which what is met is the receiver's own surface.
+  /// Returns the distance within which a disk belongs to the receiver's own surface.
   float own(float diskRadius, bool back) const {
     if (query_.falloff.bias >= 0) return query_.falloff.bias;
     return std::max(kOwnPlane * diskRadius, (back ? kOwnBack : kOwnPlane) * radius_);
@@ -155,7 +155,7 @@ class Disks::LineOfSight {
         radius_ > 0 && disk.radius > kMuchLarger * radius_ && t < disk.radius);
   }
 
-  /// `share` is that of the disk that counts, since disks overlap.
+  /// `share` is the share of the disk that counts, since disks overlap.
   void add(float t, float share, float front, float back, const vec3& sends, bool isCoarse) {
     const HitSides sides = query_.falloff.sides;
     const float shown = sides == HitSides::Both ? 1.0f : sides == HitSides::Front ? front : back;
@@ -174,7 +174,7 @@ class Disks::LineOfSight {
 
   const Disks& disks_;
   const vec3 P_, d_, over_;
-  const float radius_;  ///< That of the receiver.
+  const float radius_;  ///< Radius of the receiver.
   const DisksQuery& query_;
   float reach_;  ///< Distance beyond which disks do not count.
 };

@@ -1,4 +1,4 @@
-// Private to gi/clouds: how trees of things at points are halved.
+// Private to gi/clouds: halves a range of things that have positions, to build a tree of them.
 #pragma once
 #include <algorithm>
 #include <optional>

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr BrickSettings kBricks{
-    0.01f};  ///< maxError is a share of the mean: a third of that of photon maps, over which gather rays average.
+/// maxError is a share of the map's mean. It is a third of that of photon maps, over which gather rays average.
+constexpr BrickSettings kBricks{.maxError = 0.01f};
 
 struct LitPoint {
   vec3 P, N;  ///< World space.

@@ -16,7 +16,7 @@ constexpr size_t kMostPoints = 1024, kMostRecords = 1 << 14;
 constexpr int kPhases = 8;        ///< Number of phases; each has twice the candidates of the one before.
 constexpr int kSearchPhases = 3;  ///< Bright spots are learnt in these first phases, which have few records.
 constexpr CacheSettings kCoarse{};
-constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of so many pixels.
+constexpr float kPixelsAcross = 64;  ///< Records are as dense as for a picture of this many pixels across.
 constexpr int kSamplesShare = 2, kLeastSamples = 48, kMostSamples = 256;
 /// Each further level has half the rays of the one before, but at least these: all levels together cost about as much
 /// as the first two.
@@ -31,7 +31,8 @@ int phaseOf(uint32_t key) {
 }
 
 /// Gives a record of a further level the distances of the first level's record, which has the most rays and knows them
-/// best. The record's own gradients are noise. Clamping at 0 would keep the bright half of it, so they are cleared.
+/// best. The record's own gradients are noise. Clamping E at 0 would keep only the bright half of that noise, so the
+/// gradients are cleared.
 void copyRadii(const IrradianceRecord& first, IrradianceRecord& record) {
   record.closest = first.closest;
   record.harmonicMean = first.harmonicMean;
@@ -79,7 +80,7 @@ void BounceCaches::restore(const Levels& levels) {
   }
 }
 
-// The share of the first group is the light of what shines by itself. It is seen whatever lights are on.
+// The share of the first group is the light of surfaces that glow by themselves. It is seen whatever lights are on.
 void BounceCaches::mixLevel() {
   std::vector<std::vector<IrradianceExpansion>>& of = alone_.emplace_back();
   for (size_t g = 0; g < groups_.size(); ++g) {

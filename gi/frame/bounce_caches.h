@@ -34,11 +34,12 @@ class BounceCaches {
   };
   Levels levels() const;
   void restore(const Levels& levels);
-  /// Returns E/pi after so many bounces. A weight of 0 means that it is not known. lights: null, or one of Run::groups,
-  /// whose lights alone shine.
+  /// Returns E/pi after `bounces` bounces. A weight of 0 means that it is not known. lights: null, or one of
+  /// Run::groups, whose lights alone shine.
   IrradianceEstimate lookup(int bounces, const Camera& camera, const vec3& P, const vec3& normal,
                             const vec3& shadingNormal, const std::string* lights) const;
-  /// Returns what fill() has left out; nothing if it has ended early, or if two bounces tell no ratio.
+  /// Returns the light that fill() has left out. The result is empty if fill() ended early because little was left, or
+  /// if there are too few bounces to tell a ratio.
   BouncesLeft left() const;
 
  private:

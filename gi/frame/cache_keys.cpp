@@ -3,8 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Bounces of an audit's paths that stand for photons whose bounces nobody limits. After so many, at a reflectance of
-/// 0.75, a hundredth of the light is left.
+/// Bounces of an audit's paths where they stand for photons whose bounces nobody limits. After this many, at a
+/// reflectance of 0.75, a hundredth of the light is left.
 constexpr int kAuditBounces = 16;
 
 }  // namespace

@@ -13,7 +13,7 @@ CacheKey cacheKeyFor(const GiState&, int group, const IndirectQuery&);
 /// has since been changed: preferably those whose key differs in its rays alone, else those for the same question.
 std::vector<PreparedCache>::const_iterator preparedFor(const GiState&, const CacheKey&);
 
-/// Returns what a cache with this error function has at `maxError`.
+/// Returns the settings that a cache with this error function has at `maxError`.
 CacheSettings cacheSettings(ErrorFunction, float maxError);
 
 /// Tells whether indirect light comes from an irradiance cache.

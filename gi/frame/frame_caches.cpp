@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Returns what the groups ask for, each with its group.
+/// Returns the keys of the caches that groups ask for, each with its group.
 std::vector<std::pair<size_t, CacheKey>> keysOf(const GiState& state) {
   std::vector<std::pair<size_t, CacheKey>> keys;
   for (size_t g = 0; g < state.scene.groups.size(); ++g) {

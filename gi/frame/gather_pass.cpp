@@ -22,10 +22,10 @@ namespace tomales {
 namespace {
 
 constexpr int kPilotPhases = 3;  // Bright spots are learnt from the records of these phases.
-// Records of so many rays or more all have the same directions. Their errors are then a smooth function of the place,
-// and no greater than those of other directions (docs/decisions/0095).
+// Records of this many rays or more all have the same directions. Their errors are then a smooth function of the place,
+// and no greater than with different directions (docs/decisions/0095).
 constexpr int kManyRays = 512;
-// The first records, which look for bright spots, have so many times fewer rays, with directions of their own.
+// Pilot records, which look for bright spots, have this many times fewer rays, with directions of their own.
 constexpr int kRaysPerPilotRay = 4;
 
 /// Returns the stride of the lattice that this phase completes; 0: it completes none.
@@ -98,8 +98,8 @@ class GatherPass {
     for (const Site& s : sites)
       if (isIndirect(s.cache)) points.push_back(s.point);
     if (bounces == 1 || points.empty()) return;
-    // Every gather point may look the bounce caches up. So their rays are as many and as long as any cache asks for,
-    // whichever pixel comes first.
+    // Every gather point may look the bounce caches up. So the records there have as many rays, and as long ones, as
+    // any cache asks for, whichever pixel comes first.
     size_t first = 0;
     while (!isIndirect(first)) ++first;
     GatherSettings gather = state_.caches[first].key.gather;
@@ -210,8 +210,8 @@ class GatherPass {
   }
 
   bool sharesRays(size_t cache) const { return state_.caches[cache].key.gather.samples >= kManyRays; }
-  /// Returns the sites whose records are from the search for bright spots. They could not aim at them, and are to be
-  /// replaced.
+  /// Returns the sites whose records come from the search for bright spots. These records could not aim at the spots,
+  /// and are to be replaced.
   std::vector<size_t> pilotsAmong(const std::vector<Site>& sites) const {
     const bool areAll = phase_ == 0 && !state_.learnt->spots.spots().empty();
     std::vector<size_t> out;

@@ -24,7 +24,8 @@ struct Numbers {
 };
 
 /// Calls ask(phase, batch, point, pixel) for each point of a tile at which something is gathered, in the order of
-/// pixels: for the nearest points of a pixel in the phase of that pixel, and for every other point once in a later one.
+/// pixels: for the nearest point of a pixel in the phase of that pixel, and for the further points of pixels once in a
+/// later phase.
 template <class Ask>
 void forEachAskedPoint(const DeepTile& tile, const Numbers& numbers, const std::vector<uint8_t>& gathers,
                        const Ask& ask) {

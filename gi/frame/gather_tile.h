@@ -1,5 +1,5 @@
-// Private to gi: what a gather pass asks of a tile, phase by phase. It has only what makes a GatherPoint, a fifth of
-// the memory of the tile, which therefore need not stay in memory. Space: current.
+// Private to gi: what a gather pass asks of a tile, phase by phase. It keeps only what makes a GatherPoint. That takes
+// a fifth of the tile's memory, and the tile need not stay in memory. Space: current.
 #pragma once
 #include <atomic>
 
@@ -17,7 +17,7 @@ class GatherTile {
   GatherTile(const GiState&, const DeepTile&, const std::vector<uint8_t>& gathers);
 
   /// Calls f(point, x, y) for each point of a phase and the pixel that sees it, in the order of pixels. In the lattice
-  /// phases these are the nearest points of pixels, and later every other point once.
+  /// phases these are the nearest points of pixels, and later the further points of pixels, each once.
   template <class F>
   void forPoints(const Camera& camera, int phase, const F& f) const {
     const auto p = static_cast<size_t>(phase);

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// Least number of rays of a record: many points share it, so its noise is seen as blotches.
+/// Least number of rays of a record. Many points share a record, so its noise would show as blotches.
 constexpr int kLeastOfRecord = 256;
 /// Points of a group at which its shaders are run to learn their queries. A shader may ask at some of its points alone.
 constexpr size_t kExamples = 4;

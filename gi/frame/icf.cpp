@@ -9,7 +9,7 @@
 namespace tomales {
 
 // The compiler looks these functions up in the namespace of their structures, so they cannot stand in the unnamed one.
-// The structured bindings stop the compiler at a structure that has gained a field which its list lacks.
+// The structured bindings make the compiler refuse a structure that has gained a field which its list lacks.
 template <class A>
 void fields(A& a, HemisphereQuery& x) {
   auto& [samples, maxDistance, bias, falloff, falloffMode, maxVariation, radiance, mode, diffuseLimit, subset,

@@ -10,7 +10,7 @@ void store(const IndirectResult& out, int i, const vec3& E, const vec3 dominant[
 /// Answers the points that the eye sees. Pre: the light may still bounce there.
 void interpolateIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                          const ShadeContext&, const IndirectResult& out);
-/// Answers the hits of gather rays: from the caches of further bounces, or traced. Pre: likewise.
+/// Answers the hits of gather rays: from the caches of further bounces, or traced. Pre: the same.
 void bounceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                     const ShadeContext&, int bounces, const IndirectResult& out);
 

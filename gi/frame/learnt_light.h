@@ -1,5 +1,5 @@
-// Private to gi: what a gather pass has learnt of the light besides its records. Points that no record serves gather by
-// it, and what their rays and those of mirrors meet is lit by it. Space: current. Irradiance: E/pi.
+// Private to gi: what a gather pass has learnt of the light besides its records. It guides the rays of points that no
+// record serves, and it lights what these rays and mirror rays hit. Space: current. Irradiance: E/pi.
 #pragma once
 #include "gi/cache/bright_spots.h"
 #include "gi/frame/bounce_caches.h"

@@ -21,7 +21,7 @@ void fields(A& a, PhotonSums& x) {
 
 /// What has been counted, and is kept for a run that resumes.
 struct CountedPhotons {
-  int64_t sent = 0;  ///< In each pass, every light sends one photon or more.
+  int64_t sent = 0;  ///< It may exceed the plan, because every light sends at least one photon in each pass.
   PhotonSums sums{};
 };
 
@@ -37,7 +37,7 @@ namespace {
 /// time.
 bool isWorthKeeping(int64_t fresh, int64_t kept, int64_t all) { return fresh >= std::max(kept / 4, all / 32); }
 
-/// Returns how many photons an earlier run has sent that are in the measurement now.
+/// Resumes an earlier run's measurement, if one was kept, and returns how many photons that run has sent.
 int64_t resumed(const Checkpoint* kept, PhotonMeasurement& measurement) {
   CountedPhotons out;
   return kept && kept->take(KeptKind::CountedPhotons, 0, out) && measurement.resume(std::move(out.sums)) ? out.sent : 0;
@@ -93,7 +93,7 @@ void MeasuredLight::note(const MeasurementPoint& point) {
 
 void MeasuredLight::measure(const RayTools& tools, const PhotonPasses& passes, Checkpoint* kept,
                             const std::function<void(float)>& progress, Stats& stats) {
-  // Threads have noted them in any order.
+  // Threads have noted the points in any order.
   std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return hashOf(a) < hashOf(b); });
   PhotonSettings settings;
   settings.seed = passes.seed;

@@ -22,7 +22,7 @@ class MeasuredLight {
   void note(const MeasurementPoint& point);
 
   /// Counts passes of photons at what has been noted, until as many as asked for have been sent or the noise is low
-  /// enough. `kept`: takes over what an earlier run has counted, and keeps what is; may be null.
+  /// enough. `kept` provides what an earlier run has counted and stores what this one counts; it may be null.
   void measure(const RayTools& tools, const PhotonPasses& passes, Checkpoint* kept,
                const std::function<void(float)>& progress, Stats& stats);
 

@@ -11,7 +11,7 @@ namespace {
 
 uint32_t hashOf(const std::string& text) { return static_cast<uint32_t>(checksum(std::as_bytes(std::span(text)))); }
 
-/// Hashes the part of the query that GatherSettings do not hold as well.
+/// Hashes the part of the query that GatherSettings do not repeat.
 uint32_t hashOf(const std::optional<HemisphereQuery>& q) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   return q ? hashCombine(bits(q->bias), bits(q->falloff), static_cast<uint32_t>(q->falloffMode),

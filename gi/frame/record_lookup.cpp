@@ -13,7 +13,7 @@ namespace {
 // more noise than they add error (docs/decisions/0103).
 constexpr float kServesWider = 1.25f;
 
-/// Returns the light of the records under the gains, or drawn anew; empty if that is their own.
+/// Returns the light of the records under the gains, or drawn anew; empty if the records' own light is meant.
 std::span<const IrradianceExpansion> lightOf(const GiState& state, const PreparedCache& prepared,
                                              const ShadeContext& context) {
   const auto index = static_cast<size_t>(&prepared - state.caches.data());

@@ -18,12 +18,12 @@ BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPl
 /// Returns the places where the active points look, with no answer yet.
 BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
 
-/// Returns the light of a cache's records under the gains; empty if that is their own.
+/// Returns the light of a cache's records under the gains; empty if the gains do not change it.
 std::span<const IrradianceExpansion> mixedLight(const GiState&, size_t cache);
 
 /// Returns the light of a cache's records as it would be with other random numbers. Each record is made brighter or
-/// darker by a draw of its noise, times the root of 2: so much do two independent pictures differ. mixed: mixedLight()
-/// of the cache.
+/// darker by a draw of its noise, times the root of 2, because that is how much two independent pictures differ. mixed:
+/// mixedLight() of the cache.
 std::vector<IrradianceExpansion> redrawn(const IrradianceCache&, std::span<const IrradianceExpansion> mixed);
 
 /// Returns E/pi of light that came by mirrors and glass, which gather rays do not find. n: unit normal.

@@ -28,8 +28,8 @@ class RecordSlices {
  public:
   /// kept: may be null.
   RecordSlices(Checkpoint* kept, KeptKind kind) : kept_(kept), kind_(kind) {}
-  /// Makes a record at every point, in the order of the points. Returns how many of the first records are there: fewer
-  /// than there are points if it was stopped.
+  /// Makes a record at every point, in the order of the points. Returns the number of records made, which belong to the
+  /// first points. It is less than the number of points if it was stopped.
   size_t make(const std::vector<GatherPoint>& points, const RecordMaking& making, RecordSlice& out);
 
  private:

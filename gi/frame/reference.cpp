@@ -1,5 +1,5 @@
-// Indirect light by path tracing: for the reference, and for hits that no cache of their bounce serves; and paths from
-// hits where the atlas cannot tell.
+// Indirect light by path tracing, for the reference, for hits that no cache of their bounce serves, and for hits where
+// the atlas does not tell two sides of a wall apart.
 #include "gi/frame/reference.h"
 #include "gi/frame/cache_keys.h"
 #include "gi/frame/gather_places.h"
@@ -15,8 +15,8 @@ namespace tomales {
 namespace {
 
 constexpr size_t kRaysPerBatch = 4096;  // Paths that are shaded together.
-// The share of paths that go on from a place that no map knows. Paths that never come to a place which a map knows end
-// by it.
+// The share of paths that go on from a place where no map tells the light. It ends paths that never come to a place
+// where one does.
 constexpr float kGoesOn = 2.0f / 3;
 
 // Sums of one point over its paths.
@@ -44,7 +44,7 @@ class PathBatches {
   }
 
   void add(PathSum& sum, int paths) {
-    if (stopRequested()) return;  // a bucket of many paths takes long, and is dropped then (reyes/frame.h)
+    if (stopRequested()) return;  // a bucket of many paths takes long, and a stopped one is dropped (reyes/frame.h)
     const int i = sum.point;
     const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
     vec3 tangent, bitangent;

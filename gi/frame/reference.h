@@ -7,7 +7,7 @@ namespace tomales {
 /// Implements indirectDiffuse(). Pre: the light may still bounce at these points.
 void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                    const ShadeContext&, int bounces, const IndirectResult& out);
-/// Implements ShadeServices::indirectAlong(). Pre: likewise.
+/// Implements ShadeServices::indirectAlong(). Pre: the same.
 void traceAlong(const GiState&, const ShadePoints&, const uint8_t* active, const LobeDirection&, const IndirectQuery&,
                 const ShadeContext&, int bounces, TmVec3 out);
 /// Sets E/pi at points where the atlas does not tell two sides of a wall apart: by a path from each, whose hits look up

@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// The shadow rays of one light see at least so many times of the shutter, over all its samples.
+/// The shadow rays of one light have at least this many different times of the shutter, over all its samples.
 constexpr int kTimesOfLight = 16;
 
 /// The shadow rays of a batch of points.

@@ -1,4 +1,4 @@
-// Private to gi: where a hemisphere needs more rays than one a cell.
+// Private to gi: where a hemisphere needs more than one ray for each cell.
 #pragma once
 #include "gi/gather/hemisphere.h"
 

@@ -16,12 +16,12 @@ constexpr float kHessianTolerance = 4;
 constexpr int kMostSplit = 8;
 constexpr float kMostAimed = 0.5f;  ///< Greatest number of rays at bright spots, for each ray of the hemisphere.
 constexpr size_t kLeastAimed = 8;
-/// For each so many rays of the hemisphere, one more finds out whether a spot can be seen.
+/// Number of rays of the hemisphere for each probe, a ray that finds out whether a spot can be seen.
 constexpr size_t kRaysOfProbe = 8;
 /// Least number of rays of the hemisphere for each spot. With fewer, probes would cost too much.
 constexpr size_t kLeastPerSpot = 4;
 constexpr float kLeastShare = 0.05f;  ///< Share of a spot's light that is assumed when its few probes have seen none.
-/// No rays are aimed if the hemisphere alone is expected to send so many to the spots.
+/// No rays are aimed if the hemisphere alone is expected to send this many rays to the spots.
 constexpr float kFoundByChance = 160;
 constexpr float kUnhidden = 1.5f;  ///< Below this many times kFoundByChance, probes find out whether spots are hidden.
 /// Above it, probes are traced only where less than this share of the spots' light is seen.
@@ -123,7 +123,7 @@ class Hemisphere {
   }
 
   /// Finds the share of each spot's light that arrives: something may be in between, or the spot shines elsewhere.
-  /// These rays do not count for the estimate: rays that follow the finds of others that count make it too dark
+  /// These rays do not count for the estimate: if they did, rays aimed by their finds would make it too dark
   /// (docs/decisions/0092).
   void probe(Stats& stats) {
     const size_t targets = aim_.targets();
@@ -144,7 +144,7 @@ class Hemisphere {
   }
 
   /// The more light is expected from the spots, the more rays are aimed at them. The rays of this hemisphere have no
-  /// say in it, except that they may ask for probes: if they see less than a quarter of so much light, that is not
+  /// say in it, except that they may ask for probes: if they see less than kHidden of the expected light, that is not
   /// chance, and spots are hidden.
   void aim(Stats& stats) {
     scratch_.aimedDirections.clear();
@@ -175,14 +175,14 @@ class Hemisphere {
                : 0;
   }
 
-  /// E/pi, luminance, estimated by the rays of the hemisphere alone.
+  /// Returns the luminance of E/pi, estimated by the rays of the hemisphere alone.
   float irradianceSeen() const {
     float sum = 0;
     for (const vec3& L : scratch_.seen.all) sum += luminance(L);
     return sum / static_cast<float>(count_);
   }
 
-  /// E/pi, luminance, without light as bright as a spot. Colours may be negative, so the result is kept from being so.
+  /// Returns the luminance of E/pi without light as bright as a spot. Colours may be negative; they count as 0 here.
   float dimIrradiance() const {
     float sum = 0;
     for (const vec3& L : scratch_.seen.all)
@@ -215,7 +215,8 @@ class Hemisphere {
     scratch_.spread[c].add(luminance(part));
   }
 
-  /// Returns one over the number of rays expected in this direction on a cell of projected solid angle pi / n.
+  /// Returns one over the number of rays that are expected around this direction on the area of a cell, whose projected
+  /// solid angle is pi / n.
   float weight(int cell, const vec3& direction) const {
     float rays = static_cast<float>(scratch_.raysOfCell[static_cast<size_t>(cell)]);
     if (aims_ > 0) {

@@ -3,7 +3,7 @@
 namespace tomales {
 namespace {
 
-constexpr double kFar = 1e3;  ///< A ray that misses counts as a hit at so many times the farthest distance.
+constexpr double kFar = 1e3;  ///< A ray that misses counts as a hit at this many times the farthest distance.
 
 using dvec3 = glm::dvec3;
 
@@ -162,7 +162,7 @@ float hessianRadius(const IrradianceCurvature& h, float luminanceOfE, float pixe
   const vec2 bends = bendsOf(h);
   const float bend = bends.x + bends.y;
   const float light = std::max(luminanceOfE, 0.0f);  // an estimate may be negative
-  // |x^T H x| / 2 over a disk of radius R is at most (|l1| + |l2|) pi R^4 / 8.
+  // The integral of |x^T H x| / 2 over a disk of radius R is at most (|l1| + |l2|) pi R^4 / 8.
   return bend > 0 ? std::pow(8 * tolerance * light * pixelSize * pixelSize / (kPi * bend), 0.25f) : kInfinity;
 }
 

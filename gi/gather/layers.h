@@ -11,7 +11,7 @@ struct RayLayers {
   std::vector<SampleName> names;
   std::vector<int> elements;        ///< The caller's number of the element that each ray belongs to.
   std::vector<vec3> transmittance;  ///< Transmittance from the current start of each ray back to its first origin.
-  /// The ray that came to the surface behind which each one starts; empty before the first goOn().
+  /// For each ray, the ray that hit the surface behind which it starts; empty before the first goOn().
   std::vector<Ray> came;
   std::vector<Hit> left;  ///< The hit on that surface.
 

@@ -2,7 +2,7 @@
 // over a point, light changes over the height of that surface, whatever the size of a pixel. So a record reaches no
 // farther than an occluder over it is high, and a point under an occluder that no record in use has met gets a record
 // of its own. Without this amendment, slots narrower than a pixel get the light in front of them: a tenth of the error
-// of all scenes comes from there, and a third of the error at a lamp's slot. It costs a tenth more records, and as much
+// of all scenes comes from there, and a third of the error at a lamp's slot. It costs a tenth more records and a tenth
 // more time (docs/decisions/0061).
 #pragma once
 #include "gi/gather.h"

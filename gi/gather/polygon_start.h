@@ -1,6 +1,7 @@
-// Private to gi: the points where rays of a hemisphere start. A concave surface lies behind its coarse polygons: flat
-// rays that leave it would pass behind all of them and miss what is there, as inside a sphere. Such rays start on the
-// polygon in front, and those that would dive into it leave it at the mirrored angle. Space: current. Threads: pure.
+// Private to gi: the points where rays of a hemisphere start. A concave surface lies behind its coarse polygons, as
+// inside a sphere: rays that leave it at a grazing angle would pass behind all of them and miss what is there. Such
+// rays start on the polygon in front. Those that would dive into it leave it at the mirrored angle. Space: current.
+// Threads: pure.
 #pragma once
 #include "raytrace/trace.h"
 

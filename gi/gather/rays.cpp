@@ -13,7 +13,7 @@ struct GatherRays::Scratch {
   std::vector<std::pair<size_t, vec3>> mapped;
   HitQuestion question;
   HitAnswers answers, share;
-  std::vector<vec3> glow;  ///< The colours of hits that no light lights.
+  std::vector<vec3> glow;  ///< The colours of the hits when no light shines on them.
   std::vector<vec3> left;  ///< The radiance that the groups so far have not brought.
 };
 
@@ -102,7 +102,7 @@ void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
   context.illumination = settings_.light;
   context.specularRaysSeeLights = settings_.specularRaysSeeLights;
   context.highlights = highlightsOfHits(settings_.specularRaysSeeLights);
-  // Mirrors and glass show their reflections.
+  // Diffuse rays end at these hits. Mirrors and glass still show their reflections.
   context.diffuseLimit = settings_.asked ? settings_.asked->diffuseLimit : 0;
   scratch_.question.mode = settings_.asked ? settings_.asked->mode : HitMode::Shader;
   for (int layer = 0; layer < kMostLayers && !scratch_.layers.rays.empty(); ++layer) {

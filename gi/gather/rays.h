@@ -1,6 +1,6 @@
 // Private to gi/gather: the rays of one record, and their answers. gi/gather/gather.cpp decides which rays are worth
-// tracing. Space: current; local directions have the point's normal along z. Radiance is that along a ray, or for
-// occlusion the share that is not covered.
+// tracing. Space: current; local directions have the point's normal along z. Radiance is that along a ray. For
+// occlusion, the uncovered share takes its place.
 #pragma once
 #include "gi/gather.h"
 #include "gi/gather/polygon_start.h"

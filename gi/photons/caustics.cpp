@@ -33,7 +33,7 @@ CausticPhotons::CausticPhotons(PointCloud photons, const PhotonIrradianceSetting
 
 vec3 CausticPhotons::irradiance(const vec3& P, const vec3& N, int surface, float radius) const {
   vec3 E(0.0f);
-  // The kernel has a variance of r^2 / 6 along each axis, and a square of edges 2 R one of R^2 / 3.
+  // Along each axis the kernel has a variance of r^2 / 6, and a square with edges of 2 R has one of R^2 / 3.
   const float own2 = 2 * radius * radius;
   const float wider = std::sqrt(own2);
   boxes_.visit([&](const Bound3& box) { return holds(box.grown(wider), P); },

@@ -9,7 +9,7 @@
 namespace tomales {
 
 // The map from square to disk is that of Shirley and Chiu (1997). It needs sines and cosines of at most an eighth of a
-// turn, for which short series do.
+// turn, so short series are exact enough.
 TOMALES_HOT void cosineHemispheres(std::span<const vec2> xi, std::span<vec3> out) {
   for (size_t i = 0; i < out.size(); ++i) {
     const float a = 2 * xi[i].x - 1, b = 2 * xi[i].y - 1;

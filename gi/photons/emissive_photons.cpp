@@ -12,7 +12,7 @@
 namespace tomales {
 namespace {
 
-/// How many places are probed for their brightness: in all, and at least and at most on one side of an object.
+/// Numbers of places that are probed for their brightness: in all, and at least and at most on one side of an object.
 constexpr size_t kGlowProbes = 1 << 17, kFewestOfSide = 16, kMostOfSide = 8192;
 constexpr int kMostColumns = 32;
 /// Every cell counts as at least this share of the mean brightness, so that what the probes have missed still glows.
@@ -72,11 +72,12 @@ EmissivePhotons::EmissivePhotons(const RayScene& rays, const ShadingSystem& shad
   if (leftOut.empty()) return;
   const Object& one = *leftOut.front();
   log.report(Severity::Warning, "photons-glow", one.where,
-             fmt::format("{}: its shader may add light of its own, but no photons start on it, as it is part of a "
-                         "solid, fades into another level of detail, or is seen in several of them or in micropolygons "
-                         "by rays{}: after the first bounce its light is missing; an area light in its place has it",
+             fmt::format("{}: its shader may add light of its own, but no photons start on it, because it is part of "
+                         "a solid, fades into another level of detail, or is seen by rays in several tessellations or "
+                         "in micropolygons{}. After the first bounce its light is missing; an area light in its place "
+                         "would have it",
                          objectName(one),
-                         leftOut.size() > 1 ? fmt::format("; so do {} objects more", leftOut.size() - 1) : ""));
+                         leftOut.size() > 1 ? fmt::format(" (likewise {} other objects)", leftOut.size() - 1) : ""));
 }
 
 void EmissivePhotons::survey(Surface& out, size_t mostProbes) const {

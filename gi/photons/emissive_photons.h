@@ -14,8 +14,8 @@ std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& sha
 
 class EmissivePhotons : public PhotonSource {
  public:
-  /// Samples each object that may glow and that diffuse rays see, to learn where it is how bright. Warns of objects on
-  /// which no photon can start.
+  /// Samples each object that may glow and that diffuse rays see, to learn how bright it is at which places. Warns of
+  /// objects on which no photon can start.
   EmissivePhotons(const RayScene& rays, const ShadingSystem& shading, uint32_t seed, Log& log);
 
   int light() const override { return -1; }

@@ -21,11 +21,12 @@ constexpr float kChanceEnds = 0.18f, kBorderBegins = 0.34f;
 constexpr float kOverlap = 1.6f;
 constexpr size_t kVeryFew = 16;  ///< An estimate of fewer is uncertain by a quarter.
 constexpr size_t kFew = 8;       ///< Fewer photons do not show how far apart they are.
-/// Chance alone brings the nearest eight of 50 so much closer once in a thousand times. Radii that follow chance make
+/// Chance alone brings the nearest eight of 50 this much closer once in a thousand times. Radii that follow chance make
 /// bricks finer than the data.
 constexpr float kMuchCloser = 0.5f;
 constexpr float kMostOfMap = 0.05f;
-/// One estimate in so many is looked for in the picture, and all that have very few photons: a dark room has few.
+/// One estimate in this many is looked up in the picture. So are all that have very few photons, because a dark room
+/// has few estimates.
 constexpr int kEstimatesPerShown = 16;
 
 /// Returns a circular segment of half angle theta: its area over pi, and the distance of its centroid, in radii.
@@ -68,8 +69,8 @@ float clumpOf(const std::vector<NearPhoton>& photons, float area, size_t inside)
   return static_cast<float>(kFew - 2) / (kPi * photons[kFew - 1].distance2) * area / static_cast<float>(inside - 1);
 }
 
-/// Tells whether walls that stand on the surface part more light from less: the share of the light behind them is not
-/// that of the area there.
+/// Tells whether walls that stand on the surface separate more light from less: the share of light behind them then
+/// differs from the share of area there.
 bool isAcrossWalls(const PhotonTree& tree, int power, uint32_t at, std::span<const NearPhoton> photons, float radius,
                    const SightAlongSurface& sight) {
   const vec3 P = tree.position(at), N = tree.normal(at);
@@ -140,8 +141,8 @@ Estimate estimate(const PhotonTree& tree, int power, uint32_t at, const PhotonIr
   const float wide = diskRadius(area, sums.inside, settings.every), close = nearRadius(near, settings.every);
   const float reach = std::sqrt(r2);
   const bool across = sight && isAcrossWalls(tree, power, at, std::span(near).first(sums.inside), reach, sight);
-  // Photons behind a wall do not tell how far apart those before it are. So an estimate across a wall marks all that
-  // was searched.
+  // Photons behind a wall do not tell how far apart those before it are. So the disk of an estimate across a wall is as
+  // wide as the search.
   return {sums.power / area,
           across                       ? reach
           : close < kMuchCloser * wide ? close

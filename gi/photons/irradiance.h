@@ -11,7 +11,8 @@ namespace tomales {
 
 struct PhotonIrradianceSettings {
   int nearest = 50;  ///< The paper's number of photons in an estimate; at least 2.
-  /// One estimate is made for so many neighbouring photons (Christensen 1999, "Faster photon map global illumination").
+  /// One estimate is made for this many neighbouring photons (Christensen 1999, "Faster photon map global
+  /// illumination").
   int every = 4;
   /// Photons farther away do not count, however few there are; 0: a twentieth of the map's diagonal.
   float maxRadius = 0;
@@ -38,7 +39,7 @@ void requirePhotons(const PointFile& file);
 
 /// Sums over a part of the picture.
 struct PictureShare {
-  double pixels = 0, x = 0, y = 0;  ///< x and y: raster coordinates, weighed by pixels.
+  double pixels = 0, x = 0, y = 0;  ///< x and y: raster coordinates, weighted by pixels.
   PictureShare& operator+=(const PictureShare& o) {
     pixels += o.pixels;
     x += o.x;
@@ -79,10 +80,10 @@ using SightAlongSurface = std::function<SightLines(const vec3& P, const vec3& N,
 
 /// `photons` needs normals and a channel kPower or kIndirectPower of three floats, or kPathPower. The result has the
 /// channels of irradianceChannels(); its disks, or balls, overlap enough to cover the surface, or fill the volume. No
-/// photons make an empty cloud. `wanted`: estimates are made only at photons that it accepts; empty: at all. `figures`:
-/// gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface part more light from
-/// less, the estimate has the surface number kAcrossWalls; empty: walls are not known. `shown`: for the figures; empty:
-/// the picture is not known.
+/// photons make an empty cloud. `wanted`: estimates are made only at photons that it accepts; empty: at all photons.
+/// `figures`: gains the counts of estimates on surfaces; may be null. `sight`: where walls on the surface separate more
+/// light from less, the estimate has the surface number kAcrossWalls; empty: walls are not known. `shown`: for the
+/// figures; empty: the picture is not known.
 PointCloud estimateIrradiance(PointCloud photons, const PhotonIrradianceSettings& settings,
                               const std::function<bool(const vec3& P)>& wanted = {}, EstimateFigures* figures = nullptr,
                               const SightAlongSurface& sight = {}, const ShownDisk& shown = {});

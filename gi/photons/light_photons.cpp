@@ -17,10 +17,10 @@ constexpr double kFloor = 1e-3;
 /// Bias of photons from a point light, which may lie on a surface. It is relative to the radius of the scene plus the
 /// distance of its origin from the eye.
 constexpr float kPointBias = 1e-5f;
-/// Least cosine in the offset of photons that leave area lights. One in 256 leaves flatter, and may still meet the
-/// lamp's own polygons.
+/// Least cosine in the offset of photons that leave area lights. One in 256 leaves at a smaller cosine, and may still
+/// meet the lamp's own polygons.
 constexpr float kLeastCosine = 1.0f / 16;
-constexpr uint32_t kFewSamples = 64;    ///< Samples of a light by which its extent is known.
+constexpr uint32_t kFewSamples = 64;    ///< Number of samples that tell the extent of a light.
 constexpr float kSampledMargin = 1.2f;  ///< Factor on that extent, since no sample is the outermost one.
 
 /// Returns the place of a probe in its cell. The four places are the corners of a smaller square.

@@ -20,7 +20,7 @@ class LightPhotons : public PhotonSource {
 
  protected:
   LightPhotons(int light, const ShadingSystem& shading, const PhotonTarget& target);
-  /// Emits a photon for each two pairs of random numbers.
+  /// Emits one photon for each element of `xi`, which holds two pairs of random numbers.
   virtual void emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out) const = 0;
   /// Evaluates the light at the center of the scene.
   LightProbe probeFromCenter(const std::vector<vec2>& xi) const;

@@ -12,8 +12,7 @@ namespace {
 
 /// Photons that face a point's side by a smaller cosine lie on another surface.
 constexpr float kSameFacing = 0.7071f;
-/// Sums of 63 bits hold 2^15 times the power of all photons, divided by the area of a disk at scale 1. One of 10^9
-/// photons still has 18 bits.
+/// Sums of 63 bits hold 2^15 times the power of all photons, counted at scale 1. One of 10^9 photons still has 18 bits.
 constexpr double kUnitsOfPower = 0x1p48;
 constexpr size_t kNumbers = 6, kColors = 3;
 

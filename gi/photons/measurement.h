@@ -35,14 +35,14 @@ struct PhotonSums {
 
 class PhotonMeasurement {
  public:
-  /// `power`: of all photons of a pass together, in each pass the same; it fixes the unit of the sums. `largestScale`:
-  /// of all passes. Part of the disk of a point near an edge lies on no surface: rays find that part. Without `rays`
-  /// the whole disk counts as surface.
+  /// `power`: the total power of the photons of a pass, the same in each pass; it fixes the unit of the sums.
+  /// `largestScale`: the largest scale of all passes. Part of the disk of a point near an edge lies on no surface:
+  /// `rays` find that part. Without them the whole disk counts as surface.
   PhotonMeasurement(std::vector<MeasurementPoint> points, double power, const RayScene* rays = nullptr,
                     float largestScale = 1);
 
-  /// Begins the next pass, in which each disk has `scale` times its radius. `weight`: of the pass in the mean; all of
-  /// them together are about 1 at most. One thread calls it.
+  /// Begins the next pass, in which each disk has `scale` times its radius. `weight`: the weight of the pass in the
+  /// mean; the weights of all passes add up to about 1 at most. One thread calls it.
   void beginPass(float scale, double weight);
   void count(std::span<const StoredPhoton> photons);
   /// Adds what has been counted since the pass began. Uses the pool.
@@ -71,7 +71,7 @@ class PhotonMeasurement {
   std::vector<uint32_t> edges_;  ///< The points whose largest disk lies partly on no surface.
   std::vector<float> covered_;   ///< The part of each point's disk that lies on a surface, at the current scale.
   float scale_ = 0;
-  double weight_ = 0;  ///< Of the pass that was begun last.
+  double weight_ = 0;  ///< Weight of the pass that was begun last.
   PhotonSums sums_;
   std::unique_ptr<std::mutex> counting_ = std::make_unique<std::mutex>();
   std::vector<StoredPhoton> counted_;  ///< The photons of this pass.

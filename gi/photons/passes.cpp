@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr int64_t kFirstRound = 1 << 13, kMostPhotonsOfPass = 1 << 17;
-/// Disks are as large as their micropolygons after so many photons. Other numbers suit other scenes
+/// Disks are as large as their micropolygons after this many photons. Other numbers suit other scenes
 /// (docs/measured/indirect.md, "Caustics"): fewer suit small caustics, and more suit rooms in large pictures.
 constexpr double kPhotonsOfUnitScale = 0x1p28;
 

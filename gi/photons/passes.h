@@ -12,8 +12,9 @@ struct PhotonPass {
 };
 
 /// Returns passes of `photons` photons together. A round of passes sends as many as all rounds before it, and has one
-/// scale. So rays look for edges rarely, and so is the noise looked at: if it were looked at often, it would at some
-/// time be low by chance. `shrinks`: disks shrink from round to round. Otherwise the scale is 1.
+/// scale. So rays look for edges only once a round. The noise too is looked at only once a round: if it were looked at
+/// often, it would at some time be low by chance. `shrinks`: disks shrink from round to round. Otherwise the scale is
+/// 1.
 std::vector<PhotonPass> photonPasses(int64_t photons, bool shrinks);
 
 }  // namespace tomales

@@ -107,7 +107,7 @@ SkyPhotons::SkyPhotons(int light, const ShadingSystem& shading, const RayScene& 
   through_ = SkyCells(radiance, [&](const vec3& toSky) { return across(toSky); });
   if (!(through_.integral() > 0)) return;
   share_ = kThroughPortals;
-  // The light that meets the outside of the house does not count, so that no photons are spent on it.
+  // Light that falls on the outside of the house does not count for the power, so few photons are spent on it.
   power_ = through_.integral() / double{share_};
 }
 

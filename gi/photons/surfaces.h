@@ -1,5 +1,5 @@
-// Private to gi: what surfaces do with photons. The shaders of diffuse ones decide, evaluated once for a whole group
-// where the answer is the same everywhere. Threads: const members may be called concurrently.
+// Private to gi: what surfaces do with photons. For diffuse surfaces their shaders decide. They are evaluated once for
+// a whole group if the answer is the same everywhere. Threads: const members may be called concurrently.
 #pragma once
 #include <optional>
 

@@ -60,7 +60,7 @@ void PhotonTracer::trace(const PhotonSource& source, uint32_t seed, uint32_t fir
   }
 }
 
-/// All of a path happens at one time of the shutter.
+/// A whole path happens at one time of the shutter.
 float PhotonTracer::timeOf(uint32_t number, uint32_t stream) const {
   return samplesTime_ ? sobol1(number, hashCombine(stream, randomStream("time"))) : 0.0f;
 }

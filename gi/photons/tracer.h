@@ -30,10 +30,10 @@ class PhotonTracer {
     int depth = 0;
     uint32_t surfacesPassed = 0;  ///< Surfaces that it has passed as if they were not there.
     uint32_t collisions = 0;      ///< Collisions with media.
-    int bounces = 0;              ///< The same as StoredPhoton::bounces, and the next:
-    bool specularFirst = false;
-    bool specular = true;  ///< It has met no diffuse surface so far.
-    vec3 lift{0.0f};       ///< Offset from the origin to just before the polygon that it leaves.
+    int bounces = 0;              ///< The same as StoredPhoton::bounces.
+    bool specularFirst = false;   ///< The same as StoredPhoton::specularFirst.
+    bool specular = true;         ///< It has met no diffuse surface so far.
+    vec3 lift{0.0f};              ///< Offset from the origin to just before the polygon that it leaves.
     /// RayScene::groupsBesideLamp() until its first hit, if its lamp lets it pass; else null.
     const std::vector<uint8_t>* besideLamp = nullptr;
   };

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kMostRadius_px = 64;  ///< A disk at the eye must not cover the picture a million times.
+constexpr float kMostRadius_px = 64;  ///< Disks close to the eye would otherwise be drawn over many times the picture.
 
 /// Returns three floats of each point: the values of a channel, its normal or its radius.
 std::vector<vec3> valuesOf(const PointCloud& cloud, const std::string& name) {

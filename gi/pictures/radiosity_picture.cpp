@@ -4,7 +4,7 @@
 #include <numeric>
 
 namespace tomales {
-// Charts are sorted by height and then by width, both descending: so every row of charts begins, and every chart in it,
+// Charts are sorted by height and then by width, both descending. So every row of charts, and every chart in it, begins
 // at a multiple of its own size.
 ChartLayout layOutPicture(const std::vector<RadiosityChart>& charts) {
   std::vector<size_t> order(charts.size());

@@ -37,7 +37,7 @@ class VertexSum {
 
 constexpr const char* kEndOfHeader = "end_header\n";
 
-/// Offset of each property of a vertex among its kFixed floats and the channels after them.
+/// Finds the offset of each property of a vertex among its kFixed floats and the channels after them.
 class VertexLayout {
  public:
   enum Fixed { X, Y, Z, Nx, Ny, Nz, Radius, kFixed };

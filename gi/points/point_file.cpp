@@ -26,7 +26,7 @@ PointFileWriter::PointFileWriter(const std::string& path, const std::vector<Clou
     : file_(path, kPointKind, kPointVersion) {
   pending_.channels = channels;
   if (pending_.width() > kMostWidth)
-    throw FileError(fmt::format("\"{}\": more than {} floats a point", path, kMostWidth));
+    throw FileError(fmt::format("\"{}\": more than {} floats per point", path, kMostWidth));
 }
 
 void PointFileWriter::add(const vec3& P, const vec3& N, float radius, const float* values) {

@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kLayoutProbes = 4;  ///< Number of edges across a patch by which its size is measured.
+constexpr int kLayoutProbes = 4;  ///< Number of steps along each side of a patch by which its size is measured.
 /// Number of patches of an object above which each patch counts as small, and is measured by its corners alone.
 constexpr uint32_t kManyPatches = 4096;
 constexpr int kMostTexels = 2048;                                        ///< Limit along an edge of a chart.

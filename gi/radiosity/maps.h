@@ -17,8 +17,8 @@ namespace tomales {
 struct RadiositySettings {
   float texels = 1;  ///< Factor on the texels along each edge that Attribute "radiosity" asks for.
   uint32_t seed = 0;
-  /// Limit for all maps together, about 20 bytes a texel. All maps are halved until they keep it. It is lower for small
-  /// pictures (layout.cpp).
+  /// Limit for all maps together, about 20 bytes a texel. All maps are halved until they keep this limit. It is lower
+  /// for small pictures (layout.cpp).
   int64_t mostTexels = int64_t{1} << 25;
   std::function<void(float)> progress{};  ///< Is told how far baking is, by any thread.
   Checkpoint* kept = nullptr;             ///< Keeps what is baked for a later run. Null: nothing does.
@@ -42,7 +42,8 @@ struct RadiosityChart {
   /// Makes the coarser levels from level 0, weighted by the known share of each texel, and fills unknown texels from
   /// the coarser levels.
   void makeLevels();
-  /// Looks up radiance: bilinear inside the chart, linear between levels. `footprint`: its width, in current space.
+  /// Looks up radiance: bilinear inside the chart, linear between levels. `footprint`: the width of the ray's
+  /// footprint, in current space.
   vec3 lookup(float u, float v, float footprint) const;
 
  private:

@@ -10,11 +10,11 @@ namespace tomales {
 
 enum ExitCode { kDone = 0, kUsage = 1, kUnreadable = 2, kIncomplete = 3, kUnwritable = 4 };
 
-/// Tells whether a program that returned this code has finished its picture, if perhaps with substitutes in it, of
-/// which its log tells.
+/// Tells whether a program that returned this code has finished its picture. The picture may hold substitutes, which
+/// the log names.
 constexpr bool succeeded(int code) { return code == kDone || code == kIncomplete; }
 ExitCode exitCodeOf(Severity severity);
-/// Returns the code for the worst that was reported. With `strict` a warning counts as something missing.
+/// Returns the code for the worst severity that was reported. With `strict` a warning counts as something missing.
 ExitCode exitCodeOf(const Log& log, bool strict = false);
 /// Returns all exit codes and their meanings, for --help.
 std::string exitCodeHelp();

@@ -1,4 +1,4 @@
-// Files of pages that the program has in itself: CMake takes them from the folders named `page`.
+// Files of web pages that are built into the program: CMake takes them from the folders named `page`.
 #pragma once
 #include <span>
 #include <string_view>

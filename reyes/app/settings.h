@@ -18,23 +18,23 @@ struct LightQuality;
 
 /// The RIB to read, how much of it, and what it may do.
 struct InputSettings {
-  std::vector<std::string> files;          ///< The files of one RIB stream; "-" is standard input.
-  std::set<std::string> sources;           ///< Pictures that Make requests of `files` read (reyes/rib.h:makeSources).
-  std::vector<std::string> edits;          ///< RIB files of changes to a shot.
+  std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
+  std::set<std::string> sources;   ///< The pictures that Make requests in `files` read (reyes/rib.h:makeSources).
+  std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
   bool framesApart = false;                ///< Frames that --frames leaves out need not be read.
   std::optional<std::vector<int>> makes;   ///< Sorted places of the Make requests to perform. If not given, all are.
   Trust trust;                             ///< Trust in the code that the RIB names.
-  std::optional<bool> standardFromFiles;   ///< ShaderRegistry's.
+  std::optional<bool> standardFromFiles;   ///< Parameter of ShaderRegistry.
 };
 
-/// The pictures: where they go, and what takes the place of the scene's options.
+/// Where the pictures go, and the settings that replace options of the scene.
 struct PictureSettings {
   std::string output;         ///< Empty for the scene's Displays.
   bool onePicture = false;    ///< Displays other than `output` are left out.
   bool overwrite = false;     ///< A crop may take the place of a picture that holds more.
   std::string outputRoot;     ///< Files that the RIB names are written below it; empty: anywhere.
-  bool resume = false;        ///< Finished work is kept, and that of an interrupted run taken over.
+  bool resume = false;        ///< Finished work is kept, and the work of an interrupted run is taken over.
   bool skipFinished = false;  ///< Frames whose pictures hold what would be rendered are left as they are.
   std::optional<std::array<int, 2>> format, pixelSamples;
   std::optional<std::array<float, 4>> crop;  ///< xmin xmax ymin ymax, 0..1
@@ -53,19 +53,20 @@ struct LightSettings {
   std::optional<ErrorFunction> errorFunction;  ///< If not given, that of the scene's indirect light.
   /// Samples of each area light and the sky, where the eye looks; 0 for as many as the light asks.
   int lightSamples = 0;
-  bool direct = true;            ///< If false, the picture shows what indirect lights bring, and nothing else.
+  bool direct = true;            ///< If false, the picture shows nothing but the light of indirect lights.
   std::optional<uint32_t> seed;  ///< Seed of the random numbers of light alone; if not given, PictureSettings::seed.
   int64_t photons = 1'000'000;   ///< Number to emit for --gi atlas and the caustics of the reference; the most for
                                  ///< --gi progressive.
-  double photonNoise = 0;        ///< Counted photons end when their noise is less than this share of their light.
-  bool hitList = true;           ///< Rays leave surfaces by lists of hits, else by a bias alone (Ray::offset).
+  double photonNoise = 0;        ///< Counting photons stops when their noise is below this share of their light.
+  bool hitList = true;           ///< Rays leave surfaces by lists of hits; if false, by a bias alone (Ray::offset).
   std::optional<bool> fullGeometry;  ///< Rays see displaced micropolygons; if not given, for the reference alone.
 };
 
 /// Light that is kept in maps and files.
 struct StoredLightSettings {
-  bool atlasDirect = false;  ///< Maps of --gi atlas hold direct light; else gather rays sample lights where they hit.
-  /// Brick maps of --gi atlas leave out bricks whose voxels vary by less of the map's mean.
+  bool atlasDirect =
+      false;  ///< Maps of --gi atlas hold direct light; if false, gather rays sample lights where they hit.
+  /// Brick maps of --gi atlas leave out bricks whose voxels vary by less than this share of the map's mean.
   float brickMaxError = 0.03f;
   float radiosityTexels = 1;    ///< Factor on the texels along each edge of a radiosity map.
   std::string radiosityFolder;  ///< Radiosity maps are written there too, unless it is empty.
@@ -75,20 +76,21 @@ struct StoredLightSettings {
   std::string irradiance;       ///< An .icf to shade with.
   bool keepsAnswers = true;     ///< An .icf gets the answers of rays too.
   bool byLight = false;         ///< Irradiance records keep the share of each group of lights.
-  bool appendIrradiance = false;  ///< True to gather too, where `irradiance` has no records.
+  bool appendIrradiance = false;  ///< True to gather new records where `irradiance` has none.
 };
 
-/// The error to measure or to reach, or the time to keep; and settings that are found on some frames for all.
+/// The error to measure or to reach, or the time to keep; and settings that hold for all frames but are found on some.
 struct QualitySettings {
-  int audit = 0;  ///< Pixels at which the error of the picture is measured; 0: none, unless an error is to be reached.
+  int audit =
+      0;  ///< Number of pixels at which the error of the picture is measured; 0: none, unless there is a target error.
   double targetError = 0;    ///< The mean relative error of light to reach; 0: settings are as they are given.
-  double targetSmudges = 0;  ///< Deviation of smudges to reach with it; 0: as targetError.
+  double targetSmudges = 0;  ///< Deviation of smudges to reach besides; 0: the same as targetError.
   double timeBudget_s = 0;   ///< Time that a frame may take; 0: as long as its settings ask.
   double reading_s = 0;      ///< Time that reading the frame has taken; it counts in timeBudget_s.
   std::optional<std::vector<int>> pilotFrames;  ///< Frames on which settings of light are found for all. Sorted.
   std::string animationSettings;                ///< A file that keeps these settings for other runs; empty: none.
-  int auditEvery = 10;      ///< Frames with settings of pilots whose number this divides are audited; 0: none.
-  bool isHeld = false;      ///< This frame has settings that were found on others.
+  int auditEvery = 10;      ///< Frames with settings of pilots are audited if this divides their number; 0: none.
+  bool isHeld = false;      ///< This frame uses settings that were found on other frames.
   bool isPilot = false;     ///< Only settings are wanted of this frame, and no picture.
   bool auditsHeld = false;  ///< The frame is audited though its settings are held.
   std::function<void(const LightQuality&)> onQuality;  ///< Gets the settings that a frame has chosen; may be empty.
@@ -102,7 +104,7 @@ struct QualitySettings {
 struct ResourceSettings {
   int threads = 0;                       ///< 0 for as many as the machine has.
   std::optional<int64_t> memoryLimit;    ///< Limit in bytes.
-  bool memoryIsGranted = false;          ///< The limit is what a cluster has granted, so it may not change pictures.
+  bool memoryIsGranted = false;          ///< A cluster granted the limit, so it must not change pictures.
   std::optional<int64_t> textureMemory;  ///< Limit in bytes.
   std::string textureCache;
   size_t brickCacheBytes = BrickCache::kDefaultBytes;
@@ -110,7 +112,7 @@ struct ResourceSettings {
   std::optional<int> bucketSize;         ///< Edge in pixels.
 };
 
-/// What a run tells while it works and afterwards.
+/// What a run reports while it works and afterwards.
 struct ReportSettings {
   /// A name with '#' makes one file for each frame. A name ending in .jsonl gets a line for each.
   std::string statsFile;
@@ -121,7 +123,7 @@ struct ReportSettings {
   std::function<void(const char* pass, float share)> watcher;  ///< See ProgressWatcher.
   std::string preview;                                         ///< host:port of a viewer; empty: none.
   std::vector<std::array<int, 2>> pixels;                      ///< Pixels to explain.
-  bool strict = false;  ///< A warning ends with the exit code of what is missing.
+  bool strict = false;  ///< After a warning the exit code is that of something missing.
   Log::Verbosity verbosity = Log::Verbosity::Normal;
   std::string commandLine;
 };

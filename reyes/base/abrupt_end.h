@@ -1,5 +1,5 @@
-// The steps that a process must still undo when it ends without a return from main(): files that nobody will finish,
-// programs that nobody will wait for. Threads: any.
+// What a process must still undo when it ends without a return from main(): files that nobody will finish, child
+// processes that nobody will wait for. Threads: any.
 #pragma once
 #include <functional>
 #include <list>

@@ -16,7 +16,7 @@
 namespace tomales {
 namespace {
 
-constexpr char kWhole = '\n';  ///< Follows the text: a process that ends in some other way does not write it.
+constexpr char kWhole = '\n';  ///< Ends the text. A process that crashes does not write it.
 
 void writeAll(int file, const std::string& text) {
   for (size_t at = 0; at < text.size();) {
@@ -37,7 +37,7 @@ void writeAll(int file, const std::string& text) {
   _exit(0);
 }
 
-/// Reads until the other side is closed. Returns false if it was still open after so many seconds.
+/// Reads until the other side is closed. Returns false if it was still open after `mostSeconds`.
 bool readAll(int file, int mostSeconds, std::string& out) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(mostSeconds);

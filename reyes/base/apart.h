@@ -1,4 +1,4 @@
-// Runs foreign code that may crash or never end in a process of its own.
+// Runs foreign code, which may crash or never end, in a process of its own.
 #pragma once
 #include <functional>
 #include <optional>
@@ -6,9 +6,9 @@
 
 namespace tomales {
 
-/// Returns what `make` returns, or nothing if its process ended otherwise or took more than `mostSeconds`, as `fate`
-/// says ("crashes (Segmentation fault)"). What it prints on standard output is lost. The process is a fork of this one,
-/// so `make` must not wait for other threads; so this must not be called while a frame is made.
+/// Returns the result of `make`, or nothing if its process crashed or took more than `mostSeconds`; `fate` then says so
+/// ("crashes (Segmentation fault)"). Its standard output is lost. The process is a fork of this one, so `make` must not
+/// wait for other threads: do not call this while a frame is made.
 std::optional<std::string> runInFork(const std::function<std::string()>& make, int mostSeconds, std::string& fate);
 
 }  // namespace tomales

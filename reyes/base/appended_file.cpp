@@ -16,9 +16,9 @@ std::unique_ptr<AppendedFile> AppendedFile::open(const std::string& path, std::s
 
 AppendedFile::~AppendedFile() { ::close(descriptor_); }
 
-// One call to write() with O_APPEND is whole (POSIX).
+// One call of write() with O_APPEND is atomic (POSIX).
 bool AppendedFile::write(const std::string& lines, std::string& error) const {
-  errno = ENOSPC;  // what a part of the lines means
+  errno = ENOSPC;  // the reason if only a part was written
   if (::write(descriptor_, lines.data(), lines.size()) == static_cast<ssize_t>(lines.size())) return true;
   error = std::strerror(errno);
   return false;

@@ -1,5 +1,5 @@
-// A file that lines are appended to, by several programs at a time if need be: logs, and the history of runs.
-// Threads: write() may be called concurrently.
+// A file that lines are appended to, possibly by several programs at a time: logs, and the history of runs. Threads:
+// write() may be called concurrently.
 #pragma once
 #include <memory>
 #include <string>
@@ -14,7 +14,8 @@ class AppendedFile {
   AppendedFile(const AppendedFile&) = delete;
   AppendedFile& operator=(const AppendedFile&) = delete;
 
-  /// Appends whole lines, which those of others do not cut. Returns false on failure, and `error` says why.
+  /// Appends whole lines; lines of other programs do not get between them. Returns false on failure, and `error` says
+  /// why.
   bool write(const std::string& lines, std::string& error) const;
 
  private:

@@ -1,5 +1,5 @@
-// A sequence that grows without moving its elements, in blocks of one size: there is never a copy beside the old, and
-// at most one block of unused room. Threads: as std::vector.
+// A sequence in blocks of one size, which grows without moving its elements: it never needs memory for two copies, and
+// at most one block is partly unused. Threads: as std::vector.
 #pragma once
 #include <cstddef>
 #include <iterator>

@@ -1,4 +1,5 @@
-// Broken promises of our own code: they print both operands and abort. Bad input is reported by log.h instead.
+// Checks of our own code's invariants: a failed one prints both operands and aborts. Bad input is reported by log.h
+// instead.
 #pragma once
 #include <fmt/format.h>
 

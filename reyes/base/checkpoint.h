@@ -1,4 +1,4 @@
-// The expensive work that a run has finished, in a file beside the picture, so that a later run takes it over
+// Keeps the expensive work that a run has finished in a file beside the picture, so that a later run can take it over
 // (--resume). Results are kept by name, as soon as they are there, and survive whatever ends the program. Threads:
 // take() and keep() may be called concurrently.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tomales {
 
-/// Everything that is kept; the second number of a name counts results of its kind.
+/// The kinds of results. A result's name is its kind and an index among those of its kind.
 enum class KeptKind : uint32_t {
   Identity,
   GatherSites,
@@ -25,7 +25,7 @@ enum class KeptKind : uint32_t {
 
 class Checkpoint {
  public:
-  /// `identity` names everything that the results depend on: what was kept under another one is dropped. The file is
+  /// `identity` stands for everything that the results depend on: results of another identity are dropped. The file is
   /// called PATH.part. Returns null if it cannot be written, which is reported.
   static std::unique_ptr<Checkpoint> create(const std::string& path, const std::string& identity, Log& log);
 
@@ -48,9 +48,9 @@ class Checkpoint {
     packer.put(schemaOf<T>(), result);  // builds whose structures differ do not read each other's results
     write(nameOf(kind, index), packer.bytes);
   }
-  /// PATH.maps, a folder for maps that a method of light makes in files. It is there after the first call.
+  /// Returns PATH.maps, a folder for maps that a method of light makes in files. The first call makes it.
   std::filesystem::path folder();
-  /// Tells that the picture is written: nothing is left to resume.
+  /// Removes the file and the folder of maps: the picture is written, so nothing is left to resume.
   void forget();
 
  private:

@@ -14,7 +14,7 @@ namespace {
 /// dup2() of a file to itself would leave it close-on-exec, so that case clears the flag.
 bool give(int ours, int its) { return ours == its ? ::fcntl(its, F_SETFD, 0) == 0 : ::dup2(ours, its) >= 0; }
 
-/// A process that ignores or blocks a signal hands that down to the program that it executes.
+/// Restores the defaults, because a program inherits ignored and blocked signals from the process that executes it.
 void restoreSignals() {
   for (const int number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_DFL);
   sigset_t none;
@@ -25,8 +25,8 @@ void restoreSignals() {
 }  // namespace
 
 // vfork() and not fork(), which would copy the page tables of a large scene; and not posix_spawn(), which
-// cannot ask for PR_SET_PDEATHSIG. Between it and execv() the child runs in our memory and only calls the
-// system.
+// cannot ask for PR_SET_PDEATHSIG. Between vfork() and execv() the child runs in our memory, and makes only system
+// calls.
 pid_t startChild(const ChildProgram& program, int& problem) {
   std::vector<char*> argv;
   for (const std::string& a : program.arguments) argv.push_back(const_cast<char*>(a.c_str()));

@@ -13,18 +13,18 @@ namespace tomales {
 
 struct ChildProgram {
   std::string path;
-  std::vector<std::string> arguments;      ///< The first is the name that it is called by.
+  std::vector<std::string> arguments;      ///< The first is argv[0], the program's name.
   std::vector<std::pair<int, int>> files;  ///< Our file and its number in the child, in this order. The child gets no
                                            ///< others that are close-on-exec.
 };
 
-/// Starts a program as leader of a process group of its own, with the usual reactions to signals. It gets SIGKILL when
-/// the thread that called this ends, and so when this process ends in any way; programs that it has started itself then
-/// only lose their pipes. Returns -1 if it was not started; `problem` is the errno then.
+/// Starts a program as leader of a process group of its own, with the default signal handlers. It gets SIGKILL when the
+/// calling thread ends, and so whenever this process ends; programs that it has started itself only lose their pipes.
+/// Returns -1 if it was not started, and sets `problem` to the errno.
 pid_t startChild(const ChildProgram& program, int& problem);
 
 /// Kills a child and all of its process group if this process ends abruptly. Destroy it before the child is waited for:
-/// another process may have its number afterwards.
+/// its process id may be reused afterwards.
 class ChildGuard : AtAbruptEnd {
  public:
   explicit ChildGuard(pid_t child);

@@ -44,7 +44,7 @@ static_assert(sizeof(Preamble) == 16 && sizeof(Entry) == 16 && sizeof(Footer) ==
 }  // namespace
 
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log) {
-  std::set<std::string> madeAnew;  // what is damaged again was made so, and would be for ever
+  std::set<std::string> madeAnew;  // a file that is damaged again was made that way
   while (true) try {
       return make();
     } catch (const DamageError& e) {

@@ -21,7 +21,7 @@
 
 namespace tomales {
 
-/// Its text says in a sentence what is wrong with which file.
+/// A file cannot be used. what() is a sentence that names the file and the fault.
 struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -29,16 +29,16 @@ struct FileError : std::runtime_error {
 struct WriteError : FileError {
   using FileError::FileError;
 };
-/// A file exists and makes no sense: it is cut off, rotten, or of another kind. One of another version makes sense to
-/// another program.
+/// A file is cut off, corrupt, or of another kind. A file of another version is no such error: another program can read
+/// it.
 struct DamageError : FileError {
   DamageError(std::string file, const std::string& problem) : FileError(problem), path(std::move(file)) {}
   std::string path;
 };
 
-/// Runs `make`, which keeps files for itself. If one of them turns out to be damaged, that is reported, the file is
-/// removed, and `make` runs again, to make the file that is missing then. If a file is damaged for the second time, its
-/// DamageError is thrown: it was made so.
+/// Runs `make`, which makes and reads files of its own. If one of them is damaged, this is reported, the file is
+/// removed, and `make` runs again, to make it anew. If a file is damaged a second time, its DamageError is thrown: it
+/// was made that way.
 void makeAnewWhatIsDamaged(const std::function<void()>& make, Log& log);
 
 /// Threads: one writer is used by one thread.
@@ -70,7 +70,7 @@ class ChunkReader {
 
   const std::string& path() const;
   uint32_t count() const;            ///< Number of chunks, without the header.
-  Bytes takeHeader();                ///< Leaves none behind: it may be large, and the caller keeps it itself.
+  Bytes takeHeader();                ///< Moves it out: it may be large, and the caller keeps it.
   Bytes read(uint32_t chunk) const;  ///< Throws FileError.
   void readAll() const;              ///< Throws FileError unless every chunk can be read.
   uint64_t fileBytes() const;

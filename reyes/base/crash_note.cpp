@@ -29,7 +29,7 @@ std::atomic<bool> compares{false}, told{false};
 // The code below runs in a signal handler: no allocation, no streams.
 
 void put(const char* text) {
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to be told
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to read it
 }
 
 void put(int number) {
@@ -116,21 +116,21 @@ extern "C" void onAsked(int) {
   }
 }
 
-/// Has onAsked() run by every thread, as each knows its notes alone.
+/// Makes every thread run onAsked(), because each knows only its own notes.
 void askThreads(bool compare) {
   compares = compare;
   struct sigaction action {};
   action.sa_handler = onAsked;
   action.sa_flags = static_cast<int>(SA_RESTART | SA_ONSTACK);
   sigemptyset(&action.sa_mask);
-  sigaction(SIGURG, &action, nullptr);  // which nobody else uses, and which is ignored by default
+  sigaction(SIGURG, &action, nullptr);  // a signal that nobody else uses, and that is ignored by default
   std::error_code error;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error))
     syscall(SYS_tgkill, getpid(), std::atoi(task.path().filename().c_str()), SIGURG);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
-/// Shaders may crash because they have used up their stack: the handler needs another one.
+/// The stack of the handler: shaders may crash because they have used up their own.
 class HandlerStack {
  public:
   HandlerStack() : memory_(new char[kBytes]) {
@@ -175,7 +175,7 @@ bool tellLastingNote() {
 }
 
 void reportCrashes() {
-#ifndef TOMALES_SANITIZED  // sanitizers tell more than a note does
+#ifndef TOMALES_SANITIZED  // sanitizers report more than a note does
   struct sigaction action {};
   action.sa_handler = onCrash;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK);

@@ -1,13 +1,13 @@
-// Notes of whose code is running, so that a crash in it is told by name. Shaders are native code of the user's.
+// Notes whose code is running, so that the message of a crash can name it. Shaders are native code of the user's.
 // Threads: a note belongs to the thread that makes it.
 #pragma once
 
 namespace tomales {
 
-/// While it lives, a crash of this thread is said to be that of `kind` `name` ("surface shader", "dots"). `user` is the
-/// object that it serves, and `other` a second one, or null. `file` and `line` say where the scene asks for it; `file`
-/// is null if there is no place. The texts belong to the caller and must outlive the note. Notes nest: the latest is
-/// told.
+/// While it lives, a crash of this thread is attributed to `kind` `name` ("surface shader", "dots"). `user` is the
+/// object that the code serves, and `other` a second one, or null. `file` and `line` say where the scene asks for the
+/// code; `file` is null if it does not. The texts belong to the caller and must outlive the note. Notes nest: the
+/// message names the latest.
 class CrashNote {
  public:
   struct Text {
@@ -23,8 +23,8 @@ class CrashNote {
   const Text* const outer_;
 };
 
-/// While it lives, a crash of this thread is said to be in the bucket of the pixels [x0, x1) x [y0, y1). They do not
-/// nest.
+/// While it lives, the message of a crash of this thread names the bucket of the pixels [x0, x1) x [y0, y1). They do
+/// not nest.
 class CrashBucket {
  public:
   CrashBucket(int x0, int y0, int x1, int y1);
@@ -32,10 +32,10 @@ class CrashBucket {
   CrashBucket(const CrashBucket&) = delete;
 };
 
-/// Every thread marks its latest note, if it has one.
+/// Marks the latest note of every thread, if it has one.
 void markNotes();
-/// Returns whether the latest note of a thread is the one that it marked, after one such has been written to standard
-/// error as code that does not return. Call both from one thread.
+/// Looks for a thread whose latest note is still the marked one. Returns true after writing that note to standard
+/// error, as code that does not return. Call both functions from one thread.
 bool tellLastingNote();
 
 /// Sets handlers: from now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has

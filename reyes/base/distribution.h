@@ -12,7 +12,8 @@ class Distribution {
   double total() const { return sums_.back(); }
   double weight(size_t i) const { return sums_[i + 1] - sums_[i]; }
 
-  /// Returns the choice that x in [0,1) falls on; x becomes its place inside that choice, [0,1]. Pre: total() > 0.
+  /// Returns the index that x in [0,1) selects, and rescales x to its place within that index's share, [0,1]. Pre:
+  /// total() > 0.
   size_t pick(double& x) const {
     const double at = x * total();
     const auto next = std::upper_bound(sums_.begin() + 1, sums_.end() - 1, at);

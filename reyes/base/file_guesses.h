@@ -1,4 +1,5 @@
-// Which file a name may mean that is not there, because the scene was written on another machine or in another folder.
+// Guesses which file a name means if no file has it, because the scene was written on another machine or in another
+// folder.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,11 +9,11 @@ namespace tomales {
 /// Returns the last part of a name that has folders of Unix or Windows before it. Empty if it has none.
 std::string lastPartOf(const std::string& name);
 
-/// Returns what a name may mean that has folders before it and is not there, the likeliest first. Scenes name files
-/// where they lay on another machine, or as seen from a folder above. For "/home/ann/bowl/maps/a.tx" these are
-/// "ann/bowl/maps/a.tx", "bowl/maps/a.tx" and "maps/a.tx", and at last "a.tx". Each is also looked for in those of
-/// `folders`, and of the folders above them, that have the name of the part before: "maps/a.tx" in a folder "bowl". The
-/// relative name "maps/a.tx" may lie in any of these folders. Empty for a name that is too long for a file.
+/// Returns the names that a missing file with folders in its name may have here, the likeliest first. Scenes name files
+/// where they were on another machine, or relative to a folder above. For "/home/ann/bowl/maps/a.tx" these are
+/// "ann/bowl/maps/a.tx", "bowl/maps/a.tx" and "maps/a.tx", and at last "a.tx". A folder among `folders`, or above one
+/// of them, also matches by its own name: "maps/a.tx" is looked for in a folder called "bowl". A relative name such as
+/// "maps/a.tx" may lie in any of these folders. Returns nothing for a name that is too long for a file.
 std::vector<std::string> pathSuffixes(const std::string& name, const std::vector<std::string>& folders);
 
 /// Returns the files that a name may mean, best first:

@@ -1,5 +1,4 @@
-// A number that tells whether a file has changed, without reading it.
-// Threads: any.
+// A number that shows whether a file has changed, without reading it. Threads: any.
 #pragma once
 #include <cstdint>
 #include <filesystem>

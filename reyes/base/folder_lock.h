@@ -1,5 +1,5 @@
 // A lock on a folder for processes that make the files in it: one works at a time, and the next one finds the files
-// made, or makes all of its own. Threads: plain object.
+// finished, or makes all of them itself. Threads: plain object.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -8,9 +8,9 @@ namespace tomales {
 
 class FolderLock {
  public:
-  /// Waits for other processes, and calls `waits` before if it must; throws Stopped (reyes/base/stop.h). Where folders
-  /// cannot be locked, as over networks, it does not wait. Pre: the folder exists and is no TemporaryFolder, which is
-  /// locked already.
+  /// Waits for other processes, and calls `waits` first if it has to. Throws Stopped (reyes/base/stop.h). Where folders
+  /// cannot be locked, as on some network file systems, it does not wait. Pre: the folder exists and is no
+  /// TemporaryFolder, which is locked already.
   FolderLock(const std::filesystem::path& folder, const std::function<void()>& waits);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -10,7 +10,7 @@
 namespace tomales {
 namespace {
 
-/// Says what else it is than a regular file; empty for a regular file.
+/// Returns what kind of file it is if it is not a regular one; empty for a regular file.
 std::string strangenessOf(mode_t mode) {
   switch (mode & S_IFMT) {
     case S_IFREG:

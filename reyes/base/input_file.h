@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// Says why `path` is no file that can be read, to follow "cannot be read: "; empty if it is one.
+/// Returns why `path` cannot be read, as words to follow "cannot be read: "; empty if it can.
 std::string inputProblem(const std::filesystem::path& path);
 
 /// Opens a file descriptor, which the caller closes. On failure it is -1, and `error` says why as inputProblem() does.

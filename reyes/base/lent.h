@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-/// Lends its memory to an empty list, and takes it back in exchange for a copy that is no larger than needed.
+/// Lends `memory` to an empty list while this object lives. At the end the list gets a copy of its elements that is no
+/// larger than needed, and `memory` is taken back.
 template <class T>
 class Lent {
  public:

@@ -1,6 +1,5 @@
-// Messages to the user. Errors in the *scene* go through here with file and line, once for each cause, and never
-// abort; broken promises of ours abort (check.h).
-// Threads: every member may be called concurrently.
+// Messages to the user. Errors in the *scene* go through here with file and line, once for each cause, and never abort;
+// broken invariants of our own code abort (check.h). Threads: every member may be called concurrently.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -26,7 +25,7 @@ struct SourceLoc {
 
 enum class Severity {
   Info,
-  Note,     ///< Worth a word, but no part of the picture depends on it.
+  Note,     ///< Worth knowing, but the picture does not depend on it.
   Warning,  ///< Something was ignored or repaired; the picture is what the scene asks for as far as we know.
   Missing,  ///< A texture, shader, archive or object is missing or unusable; a substitute is rendered (exit code 3).
   Error,    ///< The scene could not be read (exit code 2).
@@ -39,7 +38,7 @@ struct LogEntry {
   std::string message;  ///< Says what was wrong, with the object's name, and what was done instead.
   SourceLoc where;
   int count = 1;                    ///< Number of times that the message was reported.
-  std::vector<SourceLoc> places{};  ///< The first places of it, `where` among them; at most Log::kMostPlaces.
+  std::vector<SourceLoc> places{};  ///< Its first places, `where` among them; at most Log::kMostPlaces.
 };
 
 class Log {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lists files of folders, until so many entries have been seen: a scene may name the root of a large disk.
+/// Lists files of folders, until a limit of entries has been seen, because a scene may name the root of a large disk.
 class Listing {
  public:
   /// Adds the files of a folder, sorted, and of the folders in it down to `depth`.

@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-/// Opens the module beside the program, as built, or in lib, as installed; else where the loader finds it.
+/// Opens the module beside the program, as built, or in lib, as installed; otherwise where the loader finds it.
 void* openModule(const char* file, std::string& error) {
   for (const auto& path : besideProgram(file)) {
     if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;

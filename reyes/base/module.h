@@ -1,4 +1,4 @@
-// Parts of the program that are loaded when something is first asked of them.
+// Parts of the program that are loaded when they are first used.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// Places on Morton's curve, along which points near each other in space stand near each other in a list.
+// Places on the Morton curve (Z-order), along which points that are near in space are near in a list.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -33,8 +33,8 @@ inline uint32_t mortonPlace(const vec3& p, const Bound3& box) {
   return static_cast<uint32_t>(mortonPlace(glm::uvec3(axis(0), axis(1), axis(2))));
 }
 
-/// Returns the numbers of the points in the order of the curve, by 21 bits for the longest axis. Points of one place
-/// stay in their order.
+/// Returns the indices of the points in the order of the curve, with 21 bits for the longest axis. Points at one place
+/// keep their order.
 std::vector<uint32_t> mortonOrder(std::span<const vec3> points);
 
 }  // namespace tomales

@@ -10,7 +10,7 @@ namespace tomales {
 /// differ in capitals alone are the nearest.
 std::vector<std::string> nearNames(std::string_view wanted, const std::vector<std::string>& known, size_t most = 1);
 
-/// Returns the end of a message about a name that nobody knows: "; did you mean \"plastic\"?", or nothing.
+/// Returns the end of a message about an unknown name: "; did you mean \"plastic\"?", or nothing.
 std::string didYouMean(std::string_view wanted, const std::vector<std::string>& known);
 
 }  // namespace tomales

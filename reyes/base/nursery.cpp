@@ -33,7 +33,7 @@ bool receiveAll(int socket, void* data, size_t size) {
   return size == 0 || ::recv(socket, data, size, MSG_WAITALL) == static_cast<ssize_t>(size);
 }
 
-/// Texts are sent one after the other, each with the zero that ends it.
+/// Sends texts one after the other, each with its terminating zero.
 bool sendTexts(int socket, const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all.append(text.c_str(), text.size() + 1);
@@ -61,7 +61,7 @@ bool redirect(const char* file, int flags, std::initializer_list<int> to) {
 
 /// `texts`: the folder, the log, and the arguments. The child begins when it reads a byte from `go`.
 [[noreturn]] void runChild(std::vector<std::string> texts, pid_t owner, pid_t middle, int go, Body body) {
-  while (::getppid() == middle) ::sched_yield();  // until it has ended: the owner is the parent then
+  while (::getppid() == middle) ::sched_yield();  // until the middle process has ended and the owner is the parent
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
   char byte = 0;
@@ -75,9 +75,9 @@ bool redirect(const char* file, int flags, std::initializer_list<int> to) {
   std::exit(body(texts));
 }
 
-/// The child's parent ends at once, so that the owner, to whom orphans come, can wait for the child. The child begins
-/// when the owner has been told of it: one that is not known would run beside the one that takes its place.
-/// Returns false if the owner is gone, or nothing can be had to begin with.
+/// Starts a child by way of a middle process, which ends at once, so that the owner, which adopts orphans, can wait for
+/// the child. The child begins only when the owner knows of it: an unknown one would run beside its replacement.
+/// Returns false if the owner is gone, or if no process or pipe can be made.
 bool begin(int socket, const std::vector<std::string>& texts, pid_t owner, Body body) {
   int ends[2], go[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return false;
@@ -113,7 +113,7 @@ bool begin(int socket, const std::vector<std::string>& texts, pid_t owner, Body 
 
 void openNursery(Body body) {
   int ends[2];
-  ::signal(SIGCHLD, SIG_DFL);  // ignored, as a parent may leave it, it would take the exit codes of children
+  ::signal(SIGCHLD, SIG_DFL);  // if a parent left it ignored, exit codes of children would be lost
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return;
   const pid_t owner = ::getpid(), child = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0 ? ::fork() : -1;
   if (child == 0) {

@@ -22,7 +22,7 @@ std::string placeBelow(const std::string& root, const std::string& name) {
   if (!inside)
     throw WriteError(
         fmt::format("\"{}\" would lie outside of \"{}\", where --output-root keeps what a scene writes", name, root));
-  fs::create_directories(end.parent_path(), none);  // opening the file will say what is wrong
+  fs::create_directories(end.parent_path(), none);  // opening the file will report a failure
   return place.string();
 }
 

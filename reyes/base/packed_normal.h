@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Folds the octahedron onto a square of 65535 x 65535 (Meyer et al. 2010): off by less than 0.004 degrees. A vector
+/// Folds the octahedron onto a square of 65535 x 65535 (Meyer et al. 2010), with an error below 0.004 degrees. A vector
 /// that is zero or not finite becomes 0, which is no normal.
 inline uint32_t packNormal(const vec3& n) {
   const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);

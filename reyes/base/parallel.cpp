@@ -10,8 +10,8 @@
 
 #include "reyes/base/deep_stack.h"
 
-// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after what its caller wrote
-// and ends before what its caller reads. These calls tell it.
+// oneTBB is not built for ThreadSanitizer, which therefore does not see that a loop starts after its caller's writes
+// and ends before its caller's reads. These calls state that.
 #ifdef __SANITIZE_THREAD__
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);

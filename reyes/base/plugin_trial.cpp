@@ -36,7 +36,7 @@ void PluginTrial::start() {
   const std::string program = programs.front();
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   const std::pair<int, int> silent[] = {
-      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // its prints are lost
+      {nothing, STDIN_FILENO}, {nothing, STDOUT_FILENO}, {nothing, STDERR_FILENO}};  // its output is dropped
   int problem = 0;
   child_ = startChild({program, {program}, {silent[0], silent[1], silent[2], {ends[1], trial::kSocket}}}, problem);
   if (child_ > 0) guard_.emplace(child_);
@@ -59,7 +59,7 @@ int PluginTrial::end() {
   return status;
 }
 
-/// Returns false if there is no child, or it has ended because it was asked nothing.
+/// Returns false if there is no child, or if an idle one has ended.
 bool PluginTrial::begin(const std::string& path) {
   return child_ > 0 && send(socket_, path.c_str(), path.size(), MSG_NOSIGNAL) > 0 && hear(socket_) == Heard::Word;
 }

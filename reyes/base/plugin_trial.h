@@ -10,17 +10,17 @@
 
 namespace tomales {
 
-/// One child, the program tomales_plugin_trial, tries plugin after plugin. It is replaced when one has ended it, and
-/// ends by itself when nothing is asked for a while.
+/// One child, the program tomales_plugin_trial, tries plugin after plugin. A new child replaces one that a plugin has
+/// ended, and an idle child ends by itself after a while.
 class PluginTrial {
  public:
   PluginTrial() = default;
   ~PluginTrial() { end(); }
   PluginTrial(const PluginTrial&) = delete;
 
-  /// Says what becomes of a process that loads this plugin; empty if it lives, or if there is no such child.
+  /// Returns what happens to a process that loads this plugin; empty if it survives, or if no child could be started.
   std::string fateOf(const std::string& path);
-  /// Returns false if the child could not be started, so that the last plugin is untried.
+  /// Returns false if the child could not be started; the last plugin is then untried.
   bool works() const { return works_; }
 
  private:

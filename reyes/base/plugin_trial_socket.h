@@ -1,5 +1,5 @@
-// The protocol between PluginTrial and the program that it starts, over a socket of packets: paths go one way, and a
-// word before and after each comes back.
+// The protocol between PluginTrial and the program that it starts, over a packet socket: paths go to the program, which
+// answers one byte before and one after it loads each.
 #pragma once
 #include <poll.h>
 #include <sys/socket.h>

@@ -8,7 +8,7 @@ namespace tomales {
 
 struct PluginTrust {
   std::string folders{};  ///< Folders that the user named, separated by colons: searched before those of the scene.
-  /// Folders among them that are meant for this run; texts beside the scene come after them.
+  /// Those of `folders` that were chosen for this run; shaders as text beside the scene come after them.
   std::string chosen{};
   bool sceneFolders = false;  ///< If true, folders that the scene names, and the working folder, are trusted too.
 };

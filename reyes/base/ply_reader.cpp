@@ -57,7 +57,7 @@ double PlyReader::number(const PlyScalar& type) {
     char* end = nullptr;
     const double v = std::strtod(word.c_str(), &end);  // reads "nan" and "inf" too, unlike streams
     if (word.empty()) failPly(path_, "ends too early");
-    if (*end != 0) failPly(path_, "holds what is no number: " + word.substr(0, 40));
+    if (*end != 0) failPly(path_, "holds something that is not a number: " + word.substr(0, 40));
     return v;
   }
   std::byte bytes[8];
@@ -78,7 +78,8 @@ void PlyReader::skip(const PlyElement& element) {
 
 void PlyReader::requireEnd() {
   if (encoding_ == Encoding::Ascii) in_ >> std::ws;
-  if (in_.peek() != std::ifstream::traits_type::eof()) failPly(path_, "goes on behind what its header tells");
+  if (in_.peek() != std::ifstream::traits_type::eof())
+    failPly(path_, "goes on after the data that its header announces");
 }
 
 void PlyReader::readHeader() {

@@ -1,5 +1,5 @@
-// Reads the numbers of a PLY file, one after the other. Point clouds (gi/ply.h) and models are made of them.
-// Threads: none.
+// Reads the numbers of a PLY file, one after the other. Point clouds (gi/ply.h) and models are made from them. Threads:
+// none.
 #pragma once
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace tomales {
 struct PlyScalar {
   size_t bytes;
   double (*value)(const std::byte*);
-  double whole;  ///< The value that stands for 1 in a colour.
+  double whole;  ///< The value that means 1 in a colour.
 };
 
 struct PlyProperty {

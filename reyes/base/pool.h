@@ -1,5 +1,5 @@
-// Memory for small things that are freed at about the same time: it is handed out in order from a few blocks, and freed
-// with the last of them. Threads: one at a time takes; any may give back.
+// Memory for small objects that are freed at about the same time. It is handed out in order from a few blocks, and
+// freed with the last of the objects. Threads: one at a time takes; any may give back.
 #pragma once
 #include <algorithm>
 #include <memory>

@@ -15,8 +15,8 @@ int64_t residentBytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// getrusage() would also count what the process that started this one had in memory then: the peak of the image before
-// exec stays in it.
+// getrusage() would include the peak of the image before exec, which is the memory of the process that started this
+// one.
 int64_t peakResidentBytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
@@ -44,7 +44,7 @@ std::string timeNow() {
 
 void keepFreedMemory() {
 #ifdef __GLIBC__
-  // glibc raises its limits as far as this by itself, but only once blocks of such a size have been freed.
+  // glibc raises its limits up to this by itself, but only after blocks of this size have been freed.
   constexpr int kMmapped_bytes = 32 << 20;
   mallopt(M_MMAP_THRESHOLD, kMmapped_bytes);
   mallopt(M_TRIM_THRESHOLD, 2 * kMmapped_bytes);

@@ -7,16 +7,15 @@
 
 namespace tomales {
 
-/// Return memory in bytes: the present amount, and the greatest that there ever was.
+/// Return resident memory in bytes: now, and at its peak.
 int64_t residentBytes();
 int64_t peakResidentBytes();
-/// Lets the peak begin again at the present amount, where the system can.
+/// Resets the peak to the present amount, where the system supports this.
 void restartPeak();
 
-/// Lets the allocator keep what is freed for what comes next (docs/decisions/0189); later threads have its settings
-/// too.
+/// Lets the allocator keep freed memory for later use (docs/decisions/0189), in threads that start later too.
 void keepFreedMemory();
-/// Gives freed memory back to the system; else the allocator keeps most of it. It takes milliseconds.
+/// Gives freed memory back to the system, of which the allocator keeps most otherwise. It takes milliseconds.
 void returnFreeMemory();
 
 /// Returns the machine's name; empty if it has none.

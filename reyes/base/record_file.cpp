@@ -82,7 +82,7 @@ uint64_t sizeOf(int file) {
   return ::fstat(file, &s) == 0 && S_ISREG(s.st_mode) ? static_cast<uint64_t>(s.st_size) : 0;
 }
 
-/// Says what is wrong with the header; empty if it is that of this kind of file.
+/// Returns what is wrong with the header; empty if the file is of this kind.
 std::string problemOf(int file, const RecordFileKind& kind) {
   Header h{};
   const bool sound = readBlock(file, 0, h);

@@ -4,9 +4,9 @@
 //   directory  the last record: where every other one starts
 //   trailer    where the directory starts
 // A file that is not finished may stay as NAME.part with whole records in it, also after the program is killed. There
-// records stand in the order of their writing, which depends on threads; a finished file has the same bytes always.
-// Every byte is under a checksum. Numbers are little-endian.
-// Threads: write() and read() may be called concurrently; records are compressed by the caller's thread.
+// the records are in the order of writing, which depends on threads; a finished file always has the same bytes. Every
+// byte is under a checksum. Numbers are little-endian. Threads: write() and read() may be called concurrently; records
+// are compressed by the caller's thread.
 #pragma once
 #include <map>
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace tomales {
 
-/// The kind of a file, and the description of its contents that the writer had.
+/// The kind of a file, and the schema that its writer had.
 struct RecordFileKind {
   char magic[9];  ///< Eight characters.
   uint32_t version;
@@ -31,11 +31,11 @@ struct RecordName {
   auto operator<=>(const RecordName&) const = default;
 };
 
-/// The treatment of records whose file is not finished.
+/// What happens to the records of a file that is not finished.
 enum class Unfinished {
   Removed,
   Kept,     ///< They stay in NAME.part, for a later run to resume.
-  Resumed,  ///< Does the same as Kept, and takes over whole records of an earlier NAME.part, if it is of this kind.
+  Resumed,  ///< As Kept; whole records of an earlier NAME.part of this kind are also taken over.
 };
 
 class RecordWriter {

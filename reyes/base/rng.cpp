@@ -8,7 +8,7 @@ namespace tomales {
 
 namespace {
 
-// Each output bit depends only on lower input bits; on a bit-reversed number that is Owen's tree.
+// Each output bit depends only on input bits up to its own place. On a bit-reversed number this is Owen's tree.
 inline uint32_t laineKarras(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeaU;
   x += seed;

@@ -46,7 +46,7 @@ vec2 sobol2(uint32_t index, uint32_t seed);
 /// Returns a number of the one-dimensional companion: van der Corput, Owen-scrambled and shuffled.
 float sobol1(uint32_t index, uint32_t seed);
 
-/// Computes the same numbers, many at once: those of index[i] and seed[i].
+/// Compute the same numbers for many points at once: out[i] from index[i] and seed[i].
 void sobol2(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<vec2> out);
 void sobol1(std::span<const uint32_t> index, std::span<const uint32_t> seed, std::span<float> out);
 

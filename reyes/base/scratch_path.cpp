@@ -23,7 +23,7 @@ std::string prefixOf(const std::string& stem) { return "." + stem.substr(0, kMos
 
 std::string randomDigits() {
   uint64_t random = 0;
-  while (::getrandom(&random, sizeof random, 0) != sizeof random) {  // it fails only when a signal comes
+  while (::getrandom(&random, sizeof random, 0) != sizeof random) {  // it fails only if a signal arrives
   }
   return fmt::format("{:016x}", random);
 }
@@ -36,7 +36,7 @@ bool isScratchName(const std::string& name, const std::string& prefix) {
   return std::all_of(digits, digits + kRandomDigits, [](unsigned char c) { return std::isxdigit(c); });
 }
 
-/// File systems over a network lock only files that are open for writing, which folders cannot be.
+/// Opens a path for its lock. Network file systems lock only files that are open for writing, which folders cannot be.
 int openToLock(const fs::path& path) {
   constexpr int kFlags = O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
   const int file = ::open(path.c_str(), O_RDWR | kFlags);

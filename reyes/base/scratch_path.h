@@ -2,7 +2,7 @@
 //
 // Its name, `.STEM.RANDOM.part`, cannot be guessed, and an existing file of that name is never opened: neither another
 // process of the same number, as containers have, nor a link that somebody has put there can interfere. It is locked
-// (flock) while its owner lives. So a file that a killed process has left can be told from one in use, and the next
+// (flock) while its owner lives. So a file that a killed process has left differs from one in use, and the next
 // ScratchPath of the same stem in the same folder removes it. Where there are no locks, nothing is removed. Threads:
 // plain object.
 #pragma once
@@ -26,10 +26,10 @@ class ScratchPath {
   ScratchPath& operator=(const ScratchPath&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Gives the caller the descriptor, to be closed: of the file, open for reading and writing, and of the lock. Pre: it
-  /// was not called before.
+  /// Gives the caller the descriptor, which it has to close. It is that of the file, open for reading and writing, and
+  /// holds the lock. Pre: it was not called before.
   int takeDescriptor() { return std::exchange(descriptor_, -1); }
-  /// Gives the path up: it has another name by now, or none.
+  /// Gives up the path, because the file has been renamed or removed.
   void release();
 
  private:

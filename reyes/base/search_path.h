@@ -9,7 +9,7 @@ namespace tomales {
 /// Returns the folders between the colons; empty names are left out.
 std::vector<std::string> foldersOf(const std::string& searchPath);
 
-/// Adds after each relative folder the one of that name in `base`. The folder "." stays the working folder alone.
+/// Adds after each relative folder the folder of that name in `base`. To "." nothing is added.
 std::string alsoWithin(const std::string& searchPath, const std::string& base);
 
 /// Returns the search path of `kind`, empty if there is none.

@@ -7,7 +7,7 @@
 #include <new>
 #include <vector>
 
-// Sanitizer runtimes are not ready when the loader runs ifunc resolvers, so those builds take one version.
+// Sanitizer runtimes are not ready when the loader runs ifunc resolvers, so builds with sanitizers have one version.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(TOMALES_SANITIZED)
 #define TOMALES_HOT __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -26,8 +26,8 @@ struct CacheAligned {
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  // It aligns by hand: glibc's aligned allocation takes no part in its caches of freed blocks, and grids come and go by
-  // millions.
+  // It aligns by hand, because glibc's aligned allocation bypasses its caches of freed blocks, and grids come and go by
+  // the million.
   T* allocate(size_t n) {
     char* block = static_cast<char*>(::operator new(n * sizeof(T) + kLine));
     void** aligned = reinterpret_cast<void**>(block + kLine - reinterpret_cast<uintptr_t>(block) % kLine);

@@ -1,5 +1,5 @@
-// Memory that is given back in the opposite order in which it was handed out, as shaders that run other shaders need
-// it. It does not shrink. Threads: plain object.
+// Memory that is given back in the reverse order of handing it out, for shaders that run other shaders. It does not
+// shrink. Threads: plain object.
 #pragma once
 #include <algorithm>
 #include <deque>

@@ -1,4 +1,4 @@
-// Folders where files are looked for that a user keeps for all scenes.
+// Folders of files that a user keeps for all scenes.
 #pragma once
 #include <span>
 #include <string>
@@ -9,16 +9,16 @@ namespace tomales {
 /// ~/.config/tomales. Empty if neither variable is set.
 std::string userFolder(const std::string& name);
 
-/// A kind of files that a user may keep for all scenes: folders in an environment variable, and one of the
+/// A kind of files that a user may keep for all scenes: an environment variable that names folders, and a folder of the
 /// configuration.
 struct StandardPlace {
   const char *kind, *variable, *folder;
 };
 std::span<const StandardPlace> standardPlaces();
-/// Returns the folders where files of a kind are looked for after the folders that the scene names. Empty: nowhere, or
-/// there is no such kind.
+/// Returns the folders where files of a kind are looked for after the folders that the scene names; empty if there are
+/// none, or no such kind.
 std::string standardPath(const std::string& kind);
-/// Puts folders before those that standardPath() has. Threads: none may run. Pre: the kind is one of standardPlaces().
+/// Puts folders before those of standardPath(). Threads: no other may run. Pre: the kind is one of standardPlaces().
 void addToStandardPath(const std::string& kind, const std::string& folders);
 
 }  // namespace tomales

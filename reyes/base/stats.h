@@ -1,5 +1,5 @@
-// Counters and stage times of one frame, filled by every unit and told by reyes/app (--stats, -v).
-// Threads: counters are atomic; add in bulk (per bucket, per batch), never per sample.
+// Counters and stage times of one frame, filled by every unit and printed by reyes/app (--stats, -v). Threads: counters
+// are atomic; add in bulk (per bucket, per batch), never per sample.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -49,7 +49,7 @@ struct Stats {
     Counter grids{0}, geometry{0}, deepFrame{0};
   } memoryBytes;
 
-  /// Returns the number of rays that light has taken so far, without those of photons.
+  /// Returns the number of rays traced for light so far, without those of photons.
   double lightRays() const;
 
   /// Adds to the figures of one named shader ("shade.by_shader").

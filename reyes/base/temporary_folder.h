@@ -1,5 +1,4 @@
-// A folder of the process's own for files that it needs for a while.
-// Threads: plain object.
+// A folder of this process alone for files that it needs for a while. Threads: plain object.
 #pragma once
 #include "reyes/base/scratch_path.h"
 

@@ -6,13 +6,13 @@
 
 namespace tomales {
 
-/// Returns the text with capital letters of ASCII made small.
+/// Returns the text with ASCII letters in lower case.
 inline std::string lowerCase(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
-/// Returns the ending of a file's name with its dot, in small letters ("Ball.OBJ": ".obj").
+/// Returns the extension of a file's name with its dot, in lower case ("Ball.OBJ": ".obj").
 inline std::string endingOf(const std::filesystem::path& file) { return lowerCase(file.extension().string()); }
 
 }  // namespace tomales

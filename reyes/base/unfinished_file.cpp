@@ -35,7 +35,7 @@ bool isStream(const fs::path& target) {
   return isOfProcesses(throughLinks(target)) || (fs::exists(status) && !fs::is_regular_file(status));
 }
 
-/// EINVAL is no failure: pipes and devices have nothing to write back.
+/// Writes a file back to its disk. EINVAL is no failure: pipes and devices have nothing to write back.
 bool writtenBack(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 /// Tells whether this is still the file of that name.
@@ -95,8 +95,7 @@ bool UnfinishedFile::openStream(std::string& error) {
   return descriptor_ >= 0 || failedWith(errno, error);
 }
 
-/// Another process may give the file its name, or discard it, between the two calls here: a file that is locked too
-/// late must not be written to.
+/// Another process may rename or discard the file between opening and locking it; such a file must not be written to.
 bool UnfinishedFile::openResumable(std::string& error) {
   path_ = target_.string() + ".part";
   do {

@@ -1,11 +1,11 @@
-// A file that is written before it gets its name. Every file that this program leaves is made here, so that a file with
-// its name is whole.
+// A file that is written before it gets its name. Every output file of this program is made here, so a file under its
+// final name is complete.
 //
 // It is written under another name in the same folder and renamed when it is complete. Of two processes that write the
-// same file, the last one to finish wins as a whole. A target that is a link stays one: what it leads to is replaced,
-// as with `>` of the shell. Another hard link to the old file keeps the old contents. So whoever reads the old file
-// goes on reading it, and a program's input may be its output. finish() calls fsync() before the rename: else a name
-// could stand for an empty file after the machine has lost power. Threads: plain object.
+// same file, the last one to finish wins as a whole. A target that is a symbolic link stays one, and the file that it
+// points to is replaced, as with `>` in a shell. Other hard links to the old file, and programs that read it, keep the
+// old contents, so a program's input may be its output. finish() calls fsync() before the rename, because otherwise the
+// file could be empty after a power failure. Threads: plain object.
 #pragma once
 #include <cstdio>
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace tomales {
 enum class UnfinishedKind {
   Scratch,    ///< Its name is a ScratchPath, and it is removed unless it is finished. The target must be a regular file
               ///< or not exist.
-  Stream,     ///< It is as Scratch, but devices, pipes and the targets of /dev/stdout and /dev/fd are written directly.
+  Stream,     ///< As Scratch, but devices, pipes and the targets of /dev/stdout and /dev/fd are written directly.
   Resumable,  ///< It is called NAME.part, is locked, and stays until it is finished or discarded. It begins with the
               ///< contents of an earlier one.
 };
@@ -44,7 +44,7 @@ class UnfinishedFile {
   bool finish(std::string& error);
   /// Has finish() give it this name beside its target instead.
   void finishAs(const std::string& name) { target_.replace_filename(name); }
-  /// Takes its name away: the file can still be written and read, and nothing is left at the end.
+  /// Removes its name. The file can still be written and read, and nothing is left at the end.
   void discard();
 
  private:
@@ -71,8 +71,8 @@ bool moveFinished(const std::filesystem::path& from, const std::filesystem::path
 /// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Tells whether `target`, by whatever name, is one of these. A command that would replace one of its own inputs says
-/// so before.
+/// Tells whether `target` is one of these files, by whatever name. Commands use it to warn before they replace an input
+/// of their own.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

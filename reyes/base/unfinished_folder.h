@@ -1,6 +1,5 @@
-// A folder of several files that make sense together alone, until all of them are there. Each file is whole by itself
-// (UnfinishedFile); a process that is ended between two of them leaves a mark in the folder.
-// Threads: plain object.
+// A folder of several files that are of use only together. Each file is complete by itself (UnfinishedFile); a process
+// that is ended between two of them leaves a mark in the folder. Threads: plain object.
 #pragma once
 #include <filesystem>
 
@@ -10,7 +9,7 @@ class UnfinishedFolder {
  public:
   /// Marks a folder, which must exist. Throws WriteError.
   explicit UnfinishedFolder(const std::filesystem::path& folder);
-  /// Takes the mark away; if it is not called, the mark stays.
+  /// Removes the mark; if it is not called, the mark stays.
   void finish();
 
  private:

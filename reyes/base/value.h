@@ -59,7 +59,7 @@ inline const Param* findParam(const ParamList& list, std::string_view name) {
   return nullptr;
 }
 
-/// Returns its first string; `fallback` if it is null or has none.
+/// Returns the parameter's first string; `fallback` if it is null or has none.
 inline std::string wordOf(const Param* param, const char* fallback = "") {
   return param && !param->strings.empty() ? param->strings.front() : fallback;
 }

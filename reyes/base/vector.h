@@ -2,8 +2,7 @@
 // picks one when first called. Include it first in a .cpp that defines HWY_TARGET_INCLUDE. No operation here may be
 // fused (MulAdd) and no sum may cross lanes, so that all widths give the same bits.
 
-// Each target costs a compilation; these leave SSE4, AVX2, AVX-512 and, for older CPUs, what the compiler makes of
-// loops.
+// Each target costs a compilation. Without these, SSE4, AVX2, AVX-512 and, for older CPUs, plain loops remain.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #endif

@@ -1,5 +1,5 @@
-// The two functions that Highway's dispatch takes from its library. They stand here because the library measures a
-// timer as it is loaded, which takes 5 ms of every run (docs/decisions/0011).
+// The two functions that Highway's dispatch needs from its library. They are here because that library calibrates a
+// timer when it is loaded, which takes 5 ms of every run (docs/decisions/0011).
 #include <hwy/targets.h>
 
 namespace hwy {
@@ -8,7 +8,7 @@ namespace {
 int64_t targetsOfCpu() {
   int64_t targets = HWY_STATIC_TARGET | HWY_EMU128;
 #if HWY_ARCH_X86 && defined(__GNUC__)
-  // Features that every processor with the named ones has, such as f16c, are not asked for: Clang has no words for
+  // Features that every processor with the named ones has, such as f16c, are not tested, because Clang has no names for
   // them.
   __builtin_cpu_init();
   const bool sse4 =

@@ -1,5 +1,5 @@
-// Private to reyes/dfb: the fields of a Scene that a .dfb holds: all but geometry. A structure that gains a field stops
-// the compiler here: add it to the list, and nothing else needs to be done.
+// Private to reyes/dfb: the fields of a Scene that a .dfb holds, which are all but geometry. When a structure gains a
+// field, this file no longer compiles: add the field to the list, and nothing else needs to be done.
 #pragma once
 #include "reyes/dfb.h"
 #include "reyes/state_fields.h"

@@ -80,7 +80,7 @@ void tileFields(A& a, DeepTile& x) {
   facets(a, facetList), fragments(a, fragmentList), pixels(a, pixelList);
 }
 
-/// Detects damage that no checksum shows, as in a file made by hand.
+/// Detects inconsistency that no checksum shows, for instance in a file made by hand.
 bool consistent(const DeepTile& t) {
   const auto fits = [&](const Facet& f) {
     if (f.batch < 0 || f.batch >= static_cast<int>(t.batches.size())) return false;

@@ -7,7 +7,7 @@
 namespace tomales {
 
 Bytes packTile(const DeepTile& tile);
-/// Returns nothing if the bytes are not those of a tile whose indices stay inside it.
+/// Returns nothing if the bytes are not a tile, or if an index in it is out of range.
 std::optional<DeepTile> unpackTile(BytesView bytes);
 /// Returns a number that changes with the layout of a tile.
 uint64_t tileSchema();

@@ -10,7 +10,7 @@ mat3 normalMatrix(const Object& o, const mat4& m) {
 
 namespace {
 
-/// Lets the matrix lead to where `m` leads.
+/// Multiplies primitive variables that are matrices by `m` from the left.
 void transformMatrices(const Primvar& p, const mat4& m, int n, float* values, int stride) {
   for (int first = 0; first + 15 < p.width; first += 16)
     for (int i = 0; i < n; ++i) {

@@ -10,7 +10,7 @@ struct Triple {
   T *x, *y, *z;
 };
 
-/// Object-space results of Prim::evaluate for n points. Their memory is kept by the thread.
+/// Object-space results of Prim::evaluate for n points. Each thread reuses their memory.
 class Evaluated {
  public:
   explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {

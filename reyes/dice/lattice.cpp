@@ -129,7 +129,7 @@ Grid emptyGrid(const Object& o, int object, std::span<const PatchPiece> pieces, 
   return g;
 }
 
-/// Fills P, N and the turns of all keys. Returns the transformation of normals at the first key.
+/// Sets P and N at all keys, and their turns. Returns the transformation of normals at the first key.
 mat3 placeVertices(const Object& o, const DiceKeys& keys, PieceLattices& lattices, Grid& g) {
   const int n = g.vertexCount();
   const auto vertices = [&](const Prim& shape, Evaluated& out) {
@@ -154,7 +154,8 @@ mat3 placeVertices(const Object& o, const DiceKeys& keys, PieceLattices& lattice
   return normals;
 }
 
-/// Fills the primitive variables at the first key, whose transformations are m and `normals`. Returns their floats.
+/// Sets the primitive variables at the first key, whose transformations are m and `normals`. Returns their number of
+/// floats.
 int interpolatePrimvars(const Prim& prim, const mat4& m, const mat3& normals, PieceLattices& lattices, Grid& g) {
   const int n = g.vertexCount();
   int offset = 0;

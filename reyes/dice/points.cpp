@@ -14,8 +14,8 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
 
 namespace {
 
-/// The shader's parameters at a place of a patch, and their derivatives along it: patches of one mesh share a parameter
-/// square.
+/// The shader's u and v at a place of a patch, and their derivatives along it: the patches of a mesh share one
+/// parameter square.
 struct ShaderParameters {
   float u, v, perU, perV;
 

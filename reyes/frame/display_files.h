@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// The files of the Displays, and the rows to be written to them.
+/// The files of the Displays, and the rows that wait to be written to them.
 class DisplayFiles {
  public:
   explicit DisplayFiles(Stats& stats) : stats_(stats) {}

@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Hides one bucket. Returns nothing if it was stopped on the way.
+/// Hides one bucket. Returns nothing if it was stopped.
 std::optional<DeepTile> hideBucket(size_t bucket, const PixelRect& rect, const NodeList& nodes,
                                    const HideContext& context, const SamplePattern& pattern, HideWarnings& warnings) {
   Hider hider(context.scene, context.camera, pattern, rect);
@@ -116,7 +116,7 @@ FrameHider::FrameHider(const DeepFrame& layout, Scene& scene, ShadingSystem& sha
     log.report(Severity::Warning, "defocus-orthographic", scene.where,
                "DepthOfField needs a perspective projection: all is in focus");
 }
-// Warnings are made for the frame as a whole, which may be hidden in parts.
+// Warnings are about the frame as a whole, which may be hidden in parts.
 FrameHider::~FrameHider() { impl_->warnings.report(impl_->context.log); }
 
 bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {

@@ -12,21 +12,21 @@
 namespace tomales {
 namespace {
 
-/// Every bucket opens anew a node of at most kSmall_px with kDense patches or more in a pixel. If buckets shared such
-/// nodes, far more than can be seen would wait for the next row of buckets.
+/// A node of at most kSmall_px, with kDense patches per pixel or more, is opened by every bucket separately. If buckets
+/// shared its contents, far more of them than can be seen would wait for the next row of buckets.
 constexpr float kDense = 4, kSmall_px = 32;
-/// A box of particles of this level or below opens into all their pieces at once. Then each bucket has enough pieces to
-/// fill grids; those of a leaf alone are scattered over several buckets. The number of particles in a pixel must lie
-/// between the two: if there are fewer, each is large, and if more, they hide each other and not all need be opened.
+/// A box of particles of this level or below opens into all their pieces at once, so that each bucket has enough pieces
+/// to fill grids; the pieces of a single leaf are scattered over several buckets. This applies only to a middle number
+/// of particles per pixel: fewer are large, and more hide each other, so not all need to be opened.
 constexpr uint32_t kLevelOfParticles = 2;
 constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 
 /// The way in which a node is opened. Shared: once, by the first bucket that needs its contents. Transient: by each
-/// bucket for itself. AtOnce: by each bucket too, but its contents do not go through the queue, in which the pieces of
-/// many small things side by side would wait for each other.
+/// bucket separately. AtOnce: as Transient, but its contents bypass the queue, where pieces of many small adjacent
+/// objects would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
-/// Tells whether all of an object is visited, whatever hides it. The visible surface of a solid depends on all its
+/// Tells whether all of an object is visited, even hidden parts: the visible surface of a solid depends on all its
 /// pieces.
 bool isVisitedWhole(const Object& o) { return o.solid >= 0 || !o.attributes->cull.hidden; }
 
@@ -68,7 +68,7 @@ class OpeningNode : public HideNode {
   }
 
  protected:
-  /// Called when the last bucket is done with the contents that open() gave.
+  /// Called when the last bucket is done with the contents from open().
   virtual void close() {}
   /// Returns the contents that touch the given buckets.
   virtual HideNodes open(const BucketRange& within) = 0;
@@ -121,8 +121,8 @@ class PatchesNode : public OpeningNode {
  public:
   using Tree = std::shared_ptr<const PatchTree>;
 
-  /// nearest: counts as the z of all pieces of an object that is visited whole, so that none is skipped before all are
-  /// hidden. It is the nearest z of its solid, or -infinity, which nothing hides, where unseen micropolygons are kept.
+  /// nearest: the z of all pieces of an object that is visited whole, so that none is skipped before all are hidden. It
+  /// is the nearest z of the object's solid, or -infinity, which nothing hides, if unseen micropolygons are kept.
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer, float nearest) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
@@ -187,8 +187,8 @@ class PatchesNode : public OpeningNode {
   const uint32_t level_, index_;
 };
 
-/// Makes nodes of the objects that the camera may see, or that cut visible ones; instances share a tree. Pre: the
-/// objects hold all parts of their solids.
+/// Makes nodes of the objects that the camera may see, or that cut visible ones; instances share a tree. Pre: `objects`
+/// has all parts of each solid.
 HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const BucketRange& within) {
   std::map<std::vector<PrimPtr>, std::shared_ptr<const PatchTree>> trees;
   std::map<int, float> zOfSolid;

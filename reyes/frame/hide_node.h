@@ -28,7 +28,7 @@ struct HideContext {
   std::mutex growth{};  ///< Guards growth of the scene and its shaders.
 };
 
-/// Notes for groups from `first` on whether their shaders want steps.
+/// Sets ShadeGroup::steps for the groups from `first` on.
 inline void markSteps(Scene& scene, const ShadingSystem& shading, size_t first) {
   for (size_t i = first; i < scene.groups.size(); ++i)
     scene.groups[i].steps = shading.group(static_cast<int>(i)).wantsSteps();
@@ -46,7 +46,8 @@ class HideNode {
   float zMin() const { return place_.zMin; }
   const BucketRange& range() const { return range_; }
 
-  /// Puts the contents into the queue or the hider of a bucket in range() that does not hide the node.
+  /// Puts the node's contents into the queue or the hider of a bucket. Pre: the bucket is in range() and does not hide
+  /// the node.
   virtual void visit(size_t bucket, NodeQueue& queue, Hider& hider) = 0;
   /// Called once for every bucket in range(), when it is resolved.
   virtual void release(size_t bucket) = 0;
@@ -60,7 +61,8 @@ using HideNodes = std::vector<std::unique_ptr<HideNode>>;
 /// The nearest node comes first; equal ones come in the order of arrival.
 class NodeQueue {
  public:
-  /// The first takes nodes that are owned elsewhere, the second those that end when they have been visited.
+  /// The first overload takes nodes that are owned elsewhere; the second takes nodes that are destroyed after their
+  /// visit.
   void push(HideNode* node) { push(std::shared_ptr<HideNode>(std::shared_ptr<void>(), node)); }
   void push(std::shared_ptr<HideNode> node) {
     const float zMin = node->zMin();
@@ -85,7 +87,7 @@ class NodeQueue {
   uint32_t next_ = 0;
 };
 
-/// Nodes, with a list for every bucket of a range of those that touch it.
+/// Nodes, with a list for every bucket of a range: the nodes that touch the bucket.
 class NodeList {
  public:
   NodeList(HideNodes nodes, const BucketRange& range, const BucketGrid& buckets);
@@ -103,7 +105,7 @@ class NodeList {
   const BucketRange range_;
   const BucketGrid& buckets_;
   std::vector<HideNode*> entries_;  ///< The lists of all buckets of the range, one after the other.
-  std::vector<size_t> end_;         ///< End of each bucket's list, where that of the next begins.
+  std::vector<size_t> end_;         ///< End of each bucket's list, where the next list begins.
 };
 
 /// Makes a node for every object and procedural that the camera may see.

@@ -12,7 +12,7 @@ namespace tomales {
 
 class HideWarnings {
  public:
-  /// Pre: the bucket's objects still exist; their numbers may be given to others later.
+  /// Pre: the bucket's objects still exist, because their indices may be reused later.
   void add(const HideDiagnostics& ofBucket, const Scene& scene);
   void report(Log& log) const;
 

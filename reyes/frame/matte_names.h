@@ -1,4 +1,4 @@
-// Private to the frame: the names that Cryptomatte gives to what is seen.
+// Private to the frame: the names of objects and materials for Cryptomatte.
 #pragma once
 #include "reyes/image.h"
 

@@ -1,4 +1,4 @@
-// Private to the frame: the part of it that is in memory while its picture is written.
+// Private to reyes/frame: the part of the frame that is in memory while its picture is written.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace tomales {
 
-/// Keeps those tiles of a frame in memory that some rows of pixels need, and has the tiles below filled.
+/// Keeps in memory the tiles that some rows of pixels need, and fills further tiles as the rows move down.
 class MovingBand {
  public:
   MovingBand(DeepFrame& frame, FrameFilter& filter, const TileFill& fill, const Options& options)

@@ -13,7 +13,7 @@ namespace tomales {
 namespace {
 
 constexpr int kLeastCellsOfOwnNode = 256;  ///< Pieces with fewer cells share a node if they begin in the same bucket.
-constexpr int kMostVerticesOfStack = 512;  ///< Grids of a node are stacked up to about so many vertices.
+constexpr int kMostVerticesOfStack = 512;  ///< Grids of a node are stacked up to about this many vertices.
 /// A piece with more vertices is not stacked: too many would be diced for one that is visible.
 constexpr int kMostVerticesOfStackedPiece = 64;
 

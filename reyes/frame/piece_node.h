@@ -1,5 +1,5 @@
-// Pieces that a grid can hold: diced by the first bucket that does not hide them, and shared by the buckets that they
-// touch.
+// Pieces that fit into grids. The first bucket that does not hide them dices them, and all buckets that they touch
+// share the grids.
 #pragma once
 #include <atomic>
 
@@ -7,13 +7,13 @@
 
 namespace tomales {
 
-/// Pieces for one grid, all of nu x nv cells, and the placement of all of them.
+/// The pieces of one grid, each of nu x nv cells, and their common placement.
 struct PieceStack {
   int object, nu, nv;
   std::vector<PatchPiece> pieces;
   Placement place;
-  bool crossesEye;  ///< The same as SubPatch::crossesEye.
-  bool round;       ///< The same as Grid::round.
+  bool crossesEye;  ///< See SubPatch::crossesEye.
+  bool round;       ///< See Grid::round.
 };
 
 class PieceNode : public HideNode {
@@ -29,7 +29,7 @@ class PieceNode : public HideNode {
     PieceStack pieces;
     BucketRange range;
     std::shared_ptr<const RasterGrid> grid{};
-    RasterExtent extent{};  ///< Extent of the grid: displacement rarely moves it as far as its bound allows.
+    RasterExtent extent{};  ///< Mostly smaller than the placement: displacement rarely reaches its bound.
     uint64_t wanted = 0;    ///< Buckets that the grid touches, as bits like those of done_.
     std::atomic<bool> made{false};
 
@@ -42,14 +42,15 @@ class PieceNode : public HideNode {
   static constexpr uint64_t kFarBuckets = uint64_t{1} << 63;
   uint64_t bitsOf(const BucketRange& buckets) const;
   std::shared_ptr<Pool> makePool(const PieceStack& stack) const;
-  /// Removes the cells with vertices that are nearer than the eye plane at some key, or not finite. Returns whether
-  /// there are any.
+  /// Removes the cells with vertices that are nearer than the eye plane at some motion key, or not finite. Returns
+  /// whether there were any.
   bool leaveOutUnseeable(Grid& grid) const;
 
   HideContext& context_;
   std::vector<Stack> stacks_;
   std::mutex mutex_;
-  /// Buckets of the range that are done, row by row: a grid that no other bucket wants is freed before its node.
+  /// Bits for the buckets of the range that are done, row by row: a grid that no other bucket wants is freed before its
+  /// node.
   uint64_t done_ = 0;
   int users_;
 };

@@ -18,7 +18,7 @@ bool contains(const Bound3& outer, const Bound3& inner) {
 
 /// Extends the box by some points of the surface, transformed by m.
 void extendBySome(const Prim& prim, const mat4& m, Bound3& out) {
-  constexpr int kSide = 5, kPoints = kSide * kSide;  // quadrics turn by a quarter from one to the next
+  constexpr int kSide = 5, kPoints = kSide * kSide;  // a quarter turn of a quadric between neighbours
   constexpr int kRoom = (kPoints + kLanes - 1) / kLanes * kLanes;
   float u[kRoom], v[kRoom], a[12][kRoom];
   for (int i = 0; i < kPoints; ++i) {
@@ -38,7 +38,8 @@ void extendBySome(const Prim& prim, const mat4& m, Bound3& out) {
 void checkProceduralBound(const Procedural& p, const Expansion& inside, Log& log) {
   const float time = p.keyTimes.front();
   const mat4 m = p.cameraFromObject.at(time), fromCamera = glm::inverse(m);
-  // The frame grows the bound by displacement, and floats far from the camera are coarse.
+  // Contents may pass the bound by displacement, which the frame adds to it, and by the rounding of floats far from the
+  // camera.
   const float coarse = kRoundings * FLT_EPSILON * glm::length(vec3(m[3]));
   const Bound3 allowed = p.bound.grown(kTolerance * glm::length(p.bound.size()) +
                                        (p.displacementBound + coarse) / std::max(lengthScale(m), FLT_MIN));

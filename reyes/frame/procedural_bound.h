@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// Reports contents beyond the bound: they are drawn only in buckets that the bound touches. It looks at points of the
-/// surfaces, because boxes around them are conservative.
+/// Reports contents outside of the bound, which are drawn only in buckets that the bound touches. It tests points on
+/// the surfaces, because boxes around them would be too large.
 void checkProceduralBound(const Procedural& procedural, const Expansion& inside, Log& log);
 
 }  // namespace tomales

@@ -7,7 +7,7 @@
 namespace tomales {
 namespace {
 
-/// Camera rays see the radiance of an area light added to what its surface reflects (docs/gi.md).
+/// Adds the radiance of area lights to the light that their surfaces reflect, as camera rays see it (docs/gi.md).
 void addEmission(const ShadePoints& points, const ShadingSystem& shading, const ShadeContext& context,
                  ShadedPoints& out) {
   std::vector<vec3> emission;
@@ -36,7 +36,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
       leaveBlack(points.count(), out);
       continue;
     }
-    // A holdout hides as much as it is opaque. Compositing uses nothing else of it, so no light is needed.
+    // A holdout only hides, by its opacity. Compositing uses nothing else of it, so no light is needed.
     if (matte) {
       ShadeContext opacityAlone = context;
       opacityAlone.direct = opacityAlone.indirect = false;

@@ -26,7 +26,8 @@ void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
                          100 * share, options.xSamples, options.ySamples));
 }
 
-/// Differences have signs while they are filtered, so that what cancels in a pixel does. Shown is how large they are.
+/// Replaces differences by their magnitudes. They have signs while they are filtered, so that they can cancel in a
+/// pixel.
 void showSizeOfNoise(const FrameOutput& output, Image& band) {
   for (const Channel& c : output.channels) {
     const SurfaceVariable* known =

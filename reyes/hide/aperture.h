@@ -14,7 +14,7 @@ class ApertureShape {
   vec2 operator()(const vec2& square) const;
 
  private:
-  /// Returns the distance of the rim at the share `along` of a side, from one corner to the next.
+  /// Returns the distance of the rim from the centre, at the share `along` of a side from one corner to the next.
   float rim(float along) const;
   /// Returns the share of the way to the rim with density r (1 + density (2 r - 1)): xi is the integral of that density
   /// up to the result.

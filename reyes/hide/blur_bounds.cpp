@@ -7,11 +7,11 @@ namespace {
 
 constexpr float kMargin_px = 1.0f / 64;
 constexpr float kRounding = 0x1p-20f;  ///< Relative to the largest coordinate: some units in the last place.
-/// Relative to the distance from the first vertex: rounding of the way to slanted coordinates and back.
+/// Relative to the distance from the first vertex: the rounding of a conversion to slanted coordinates and back.
 constexpr float kSlanting = 0x1p-15f;
 
 /// Boxes of a level, row by row, each row with one more than it needs. They bound slanted x and y relative to the
-/// grid's first vertex and, if the lens counts, the depth key, at the two keys of a segment.
+/// grid's first vertex and, if the grid is out of focus, the depth key, at the two keys of a segment.
 struct Extents {
   int columns, rows, axes;
   std::vector<float> lo[2][3], hi[2][3];
@@ -31,7 +31,7 @@ struct Extents {
 float least(float a, float b) { return b < a ? b : a; }
 float greatest(float a, float b) { return b > a ? b : a; }
 
-/// Bounds the cells of a lattice. The last of a row, which begins no cell, has any value.
+/// Bounds the cells of a lattice. The last vertex of a row begins no cell, so its entry is meaningless.
 TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restrict lo, float* __restrict hi) {
   const float *b = v + 1, *c = v + row, *d = c + 1;
   for (int i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restri
   }
 }
 
-/// Each lane of a vector keeps its own minimum.
+/// Returns the minimum. Each lane of a vector keeps its own, so that the loop vectorises.
 TOMALES_HOT float leastOf(const float* v, int count) {
   float lanes[kLanes];
   for (float& l : lanes) l = kInfinity;
@@ -73,8 +73,8 @@ void halve(Extents& from, Extents& to) {
     }
 }
 
-/// Linear motion of boxes: every vertex lies within the box whose sides move linearly. The larger half size serves all
-/// times.
+/// Linear motion of boxes. Every vertex stays within a box whose sides move linearly; the larger half size is used for
+/// all times.
 struct Motions {
   std::vector<float> center, step, reach, most;
 

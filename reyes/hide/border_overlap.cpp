@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Range of the depth keys of a cell, which begins at vertex a.
+/// Returns the range of the depth keys of the cell that begins at vertex a.
 float extentOf(const RasterGrid& raster, int a) {
   const float* d = raster.d.data() + a;
   const int row = raster.grid->nu + 1;
@@ -32,7 +32,7 @@ class BorderCell {
 
   /// Tells whether the cell lies at a border that joins a neighbour.
   bool joins() const { return joined_ != 0; }
-  /// Tells whether the cell reaches, at a point of the raster, beyond such a border as it was before it was pushed out.
+  /// Tells whether a point of the raster is beyond such a border of the cell as it was before it was pushed out.
   bool reachesTo(const vec2& at) const {
     const int b = a_ + 1, c = a_ + grid_.nu + 1, d = c + 1;
     return beyond(kEdgeU0, a_, c, b, at) || beyond(kEdgeU1, b, d, a_, at) || beyond(kEdgeV0, a_, b, c, at) ||
@@ -81,7 +81,7 @@ BorderOverlap borderOverlap(const SampleBuffer& samples, const GridTable& grids,
     if (std::abs(d - otherD) > mine.extent() + theirs.extent() + kJoinedDepthError * std::abs(d)) continue;
     const vec2 at(samples.x[first + s], samples.y[first + s]);
     const bool reaches = mine.reachesTo(at), otherReaches = theirs.reachesTo(at);
-    // The nearer sample stays where both reach over.
+    // If both layers reach over the border, the nearer one keeps the sample.
     const bool nearer = d < otherD || (d == otherD && grids.precedes(cells[s], otherCells[s]));
     const uint64_t sample = left & (~left + 1);
     if (reaches && !(otherReaches && nearer)) out.first |= sample;

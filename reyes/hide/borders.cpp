@@ -1,6 +1,6 @@
-// Three kinds of borders are closed in three ways (docs/decisions/0003). One that joins a piece of the same surface
-// reaches over it. An open one that is straight ends at the line between the ends of its whole edge, which any
-// neighbour has as well. An open one that is curved reaches over its own chords.
+// Three kinds of borders are closed in three ways (docs/decisions/0003). A border that joins a piece of the same
+// surface reaches over that piece. A straight open border ends at the line between the ends of its whole edge, which
+// any neighbour shares. A curved open border reaches beyond its own chords.
 #include "reyes/hide/borders.h"
 
 namespace tomales {
@@ -9,20 +9,22 @@ namespace {
 constexpr float kLeastSlant = 0.05f;  // Least slant, for faces seen edge on.
 // A neighbour with edges twice as long has four times the sagitta of ours.
 constexpr float kReach = 4;
-// An open border reaches its own curve where that bulges; where it does not, a neighbour's bulges, and reaches it.
+// An open border reaches its own curve if that bulges; if not, the curve of a neighbour bulges, and the neighbour
+// reaches over.
 constexpr float kReachOpen = 1.5f;
 /// Greatest share of a cell by which an open border reaches out, so that small shapes do not grow.
 constexpr float kShareOfCell = 1 / 128.0f;
-// A neighbour displaces other points of the border than ours, so its chords may lie farther from ours than those of a
-// smooth surface: by more sagittas where the border is smooth, and by these many times its roughness.
+// A neighbour displaces other points of the border than we do, so its chords may lie farther from ours than on a smooth
+// surface: by kReachDisplaced sagittas if the border is smooth, and by kReachRough times its roughness.
 constexpr float kReachDisplaced = 8, kReachRough = 24;
-/// Lines of a piece, from the border inward, that tell how rough it is: the border may look smooth by chance.
+/// Number of lines of a piece, from the border inward, whose roughness counts: the border itself may look smooth by
+/// chance.
 constexpr int kRoughLines = 3;
-// Displaced borders that turn away from the eye reach out by this share of what others do, or of a pixel if that is
-// more. Past the horizon more would show as a dark line around the body.
+// Displaced borders that turn away from the eye reach out by this share of the usual reach, or of a pixel if that is
+// more. Beyond the horizon, more would show as a dark line around the body.
 constexpr float kShareAway = 0.1f;
-// Displaced borders reach out by at most so many times the width of their cell. It is narrow where it turns away from
-// the eye, at the outline: there the neighbour lies behind, and a body must not grow by what would close a crack.
+// Displaced borders reach out by at most this many times the width of their cell. A cell is narrow where it turns away
+// from the eye, at the outline. There the neighbour lies behind, and closing a crack must not make the body larger.
 constexpr float kMostOfCell = 4;
 /// Raster coordinates up to this are on the lattice.
 constexpr float kFarthest_px = 4096;
@@ -42,8 +44,8 @@ std::array<Border, 4> bordersOf(const Grid& g, int first) {
            {kEdgeV1, first + g.nv * row, 1, -row, g.nu}}};
 }
 
-/// Returns how far the border's curve may lie from its chord at vertex k, in pixels. The second difference of points h
-/// apart on a curve of curvature c is h^2 c, its sagitta h^2 c / 8.
+/// Returns how far the border's curve may lie from its chord at vertex k, in pixels. On a curve of curvature c, the
+/// second difference of points h apart is h^2 c, and the sagitta is h^2 c / 8.
 float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + std::clamp(k, 1, std::max(1, b.count - 1)) * b.step;
   if (b.count > 1) {
@@ -55,7 +57,7 @@ float sagitta_px(const Grid& g, const float* x, const float* y, const Border& b,
     const float turn = std::abs(before.x * after.y - before.y * after.x) / (one * other);
     return turn * 2 / (one + other) * longer * longer / 8;
   }
-  // A single chord does not show its curve, but the normals turn as the tangents do.
+  // A single chord does not show curvature, but the normals turn as the tangents do.
   const int w = b.first;
   const vec3 turn = normalizeOr(g.normal(v), vec3(0)) - normalizeOr(g.normal(w), vec3(0));
   return glm::length(vec2(x[v] - x[w], y[v] - y[w])) * glm::length(turn) / 8;
@@ -67,7 +69,7 @@ float deviationAlong(const Grid& g, const float* x, const float* y, const Border
   return most;
 }
 
-/// Sine of the angle between a direction and the border at vertex k.
+/// Returns the sine of the angle between a direction and the border at vertex k.
 float slantOf(const vec2& direction, const float* x, const float* y, const Border& b, int k) {
   const int before = b.first + std::max(k - 1, 0) * b.step, after = b.first + std::min(k + 1, b.count) * b.step;
   const vec2 along{x[after] - x[before], y[after] - y[before]};
@@ -84,8 +86,8 @@ float longestEdge_px(const float* x, const float* y, const Border& b) {
   return longest;
 }
 
-/// Returns how irregularly the border bends, as a sagitta: by the change from one second difference to the next, which
-/// is next to nothing on a smooth curve.
+/// Returns how irregularly the border bends, as a sagitta: from the change between successive second differences, which
+/// is tiny on a smooth curve.
 float roughness_px(const float* x, const float* y, const Border& b) {
   float most = 0;
   vec2 before{0};
@@ -99,7 +101,7 @@ float roughness_px(const float* x, const float* y, const Border& b) {
   return std::sqrt(most) / 8;
 }
 
-/// Returns how far a displaced border may lie from that of its neighbour: within a micropolygon.
+/// Returns how far a displaced border may lie from its neighbour's: up to a micropolygon.
 float apart_px(const Grid& g, const float* x, const float* y, const Border& b) {
   const float edge = longestEdge_px(x, y, b);
   if (b.count < 3) return edge;  // Too few points show no roughness.
@@ -112,7 +114,7 @@ float apart_px(const Grid& g, const float* x, const float* y, const Border& b) {
   return std::min(edge, std::max(kReachRough * rough, kReachDisplaced * deviationAlong(g, x, y, b)));
 }
 
-/// Sign of the raster area of the cell at vertex k of a border, u before v.
+/// Returns the sign of the raster area of the cell at vertex k of a border, u before v.
 float areaSign(const float* x, const float* y, const Border& b, int k) {
   const int v = b.first + k * b.step, before = k < b.count ? v : v - b.step, after = before + b.step, in = v + b.inward;
   const vec2 along{x[after] - x[before], y[after] - y[before]}, inward{x[in] - x[v], y[in] - y[v]};
@@ -120,7 +122,8 @@ float areaSign(const float* x, const float* y, const Border& b, int k) {
   return b.edge == kEdgeU0 || b.edge == kEdgeV1 ? turn : -turn;
 }
 
-/// Tells whether the surface ends at a curve that bulges out at vertex k. It is not known of a single chord.
+/// Tells whether the surface may end at a curve that bulges out at vertex k. A single chord does not show it, and
+/// counts as bulging.
 bool mayBulge(const float* x, const float* y, const Border& b, int k) {
   if (b.count < 2) return true;
   const int v = b.first + std::clamp(k, 1, b.count - 1) * b.step, before = v - b.step, after = v + b.step;
@@ -132,7 +135,7 @@ bool mayBulge(const float* x, const float* y, const Border& b, int k) {
 struct Reach {
   bool open;  ///< True if it ends the surface.
   bool cut;   ///< True if a line cuts off what is beyond.
-  /// Least reach, where the border looks straight; it is more than kLeastReach_px if the border is displaced.
+  /// Reach where the border looks straight; more than kLeastReach_px if the border is displaced.
   float least_px;
 };
 
@@ -167,7 +170,7 @@ void pushBorder(const Grid& g, const Border& b, const float* x, const float* y, 
 
 vec2 onLattice(const vec2& at) { return {snapToSubpixel(at.x), snapToSubpixel(at.y)}; }
 
-/// Returns the line at which a straight edge ends. Null: an end is too far away to be seen exactly.
+/// Returns the line of a straight edge; nothing if an end is too far away for exact coordinates.
 std::optional<BorderLine> lineOf(const std::array<vec3, 2>& ends, const mat4& cameraFromObject, const Camera& camera) {
   vec2 at[2];
   for (int k = 0; k < 2; ++k) {
@@ -201,8 +204,8 @@ Plan planOf(const Grid::Piece& piece, const Object& o, const Camera& camera, boo
   return plan;
 }
 
-/// Returns the borders that end at lines. They are pushed out too: the lattice may leave nothing of a narrow cell at
-/// the line itself.
+/// Returns the borders that end at lines. They are pushed out too, because snapping to the lattice may leave nothing of
+/// a narrow cell beside the line.
 int edgesAtLines(const RasterGrid& r, size_t piece) {
   int edges = 0;
   for (size_t e = 0; e < 4 && !r.lines.empty(); ++e)

@@ -12,8 +12,8 @@ constexpr float kLeastReach_px = 2 / kSubpixels;  ///< Least distance by which a
 void planBorders(RasterGrid& raster, const Object& object, const Camera& camera);
 
 /// Pushes the borders that reach out, at one motion key. A displaced border may lie anywhere within a micropolygon,
-/// because the neighbour that it joins samples the displacement at other places: `mostOfDisplaced_px` limits how far it
-/// reaches. 0: the grid is not displaced. facing: RasterGrid::facing of a one-sided surface.
+/// because its neighbour samples the displacement at other places: `mostOfDisplaced_px` limits how far it reaches; 0 if
+/// the grid is not displaced. facing: RasterGrid::facing of a one-sided surface.
 void pushBorders(const RasterGrid& raster, float mostOfDisplaced_px, float facing, float* x, float* y);
 
 /// Returns how far the surface may lie from the grid's cells, in pixels: the sagitta along u and v, and the fold of a

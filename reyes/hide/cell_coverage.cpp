@@ -1,5 +1,5 @@
 // Finds the samples of each cell in a list of lanes: it repeatedly takes all lanes that see the same cell as the first
-// lane that is left.
+// remaining lane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/cell_coverage.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -13,7 +13,7 @@ namespace tomales {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Mask of the lanes, up to 64, whose cell is `cell`, and the least of their depths.
+/// Returns the mask of the lanes, up to 64, whose cell is `cell`, and sets the least of their depths.
 HWY_INLINE uint64_t lanesOf(const uint32_t* cells, const float* depths, size_t lanes, uint32_t cell, float& nearest) {
   uint64_t bits = 0;
   Floats least = all(kInfinity);
@@ -61,8 +61,8 @@ struct Lanes {
   uint64_t left;
 };
 
-/// Orders what was found without a branch on depths: the place of each is the number of nearer ones. nearest: their
-/// depths, and infinity after them.
+/// Sorts coverages without a branch on depths: the place of each is the number of nearer ones. nearest: their depths,
+/// followed by infinity.
 HWY_INLINE int order(const RankedCoverage* found, const float* nearest, int count, RankedCoverage* out) {
   uint64_t taken = 0;
   for (int i = 0; i < count; ++i) {
@@ -75,8 +75,8 @@ HWY_INLINE int order(const RankedCoverage* found, const float* nearest, int coun
   return taken == (uint64_t{1} << count) - 1 ? count : -1;
 }
 
-/// Several pixels advance in turn: the next cell of a pixel depends on all lanes of the one before, and meanwhile other
-/// pixels find theirs.
+/// Several pixels advance in turn, because the next cell of a pixel depends on all lanes of its last one; the processor
+/// works on other pixels meanwhile.
 HWY_INLINE void rank(Lanes* pixels, size_t count, size_t lanes, RankedCoverages* out) {
   RankedCoverage found[kRankedTogether][kMostRanked];
   HWY_ALIGN float nearest[kRankedTogether][kMostRanked];

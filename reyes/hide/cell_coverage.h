@@ -1,4 +1,4 @@
-// Private to the hider: turns lists of lanes into one coverage for each visible cell.
+// Private to the hider: turns the cells that samples see into one coverage for each visible cell.
 #pragma once
 #include <span>
 
@@ -28,13 +28,13 @@ void rankOpaque(const SampleBuffer& samples, std::span<const uint32_t> pixels, R
 /// Does the same for a transparent layer.
 void rankLayer(const TransparentLayers& layers, size_t layer, RankedCoverages& out);
 
-/// The depth keys between which a transparent layer lies.
+/// The least and greatest depth keys of a transparent layer.
 struct LayerExtent {
   float nearest, farthest;
 };
 /// Removes the hidden samples from a transparent layer. Pre: it covers some sample; afterwards it may cover none.
 LayerExtent cullLayer(SampleBuffer& samples, const GridTable& grids, size_t layer);
-/// Appends the cells that the samples see of a transparent layer. farthest: greatest of its depth keys.
+/// Appends the cells of a transparent layer that the samples see. farthest: the layer's greatest depth key.
 void collectLayer(const TransparentLayers& layers, size_t layer, float farthest, std::vector<CellCoverage>& coverages);
 
 }  // namespace tomales

@@ -4,7 +4,7 @@
 namespace tomales {
 namespace {
 
-/// (u,v) of a point in triangle p q r, whose corners have the parameters at[0..2].
+/// Returns (u,v) of point x in the triangle p[0..2], whose corners have the parameters at[0..2].
 vec2 inTriangle(const vec2 p[3], const vec2 at[3], const vec2& x) {
   const vec2 e = p[1] - p[0], f = p[2] - p[0], g = x - p[0];
   const float area = e.x * f.y - e.y * f.x;

@@ -32,7 +32,7 @@ HWY_INLINE void setBounds(const float v[4][kLanes], float* lo, float* hi) {
   }
 }
 
-/// A cell may be seen outside of its corners up to a line at which it ends.
+/// A cell that ends at a line may be visible beyond its corners, up to that line.
 HWY_INLINE void growBounds(float* lo, float* hi, float by) {
   for (int i = 0; i < kLanes; ++i) {
     lo[i] -= by;
@@ -40,7 +40,7 @@ HWY_INLINE void growBounds(float* lo, float* hi, float by) {
   }
 }
 
-/// Finds which of kLanes vertices of a grid begin a cell, and its number.
+/// Finds which of kLanes vertices of a grid are the first vertex of a cell, and that cell's index.
 class CellNumbers {
  public:
   explicit CellNumbers(const Grid& g)

@@ -15,8 +15,8 @@ class FacetTable {
   void see(uint32_t cell) { seen_[cell] = 1; }
   /// Makes the facets of all marked cells and of the cells `unseen`, and the points to shade. Before the call the tile
   /// has no facets, and its fragments name cells, each of them marked; after it they name facets. A facet depends on
-  /// its grid and on the side that is seen. A cell that may be seen from both sides has a facet for each side that a
-  /// fragment sees; if no fragment sees it, one for the front. diagnostics: may be null.
+  /// its grid and on the side that is seen. A cell that may be seen from both sides gets a facet for each side that a
+  /// fragment sees; if no fragment sees it, it gets one for the front. diagnostics: may be null.
   void make(std::span<const uint32_t> unseen, HideDiagnostics* diagnostics);
 
  private:
@@ -56,7 +56,7 @@ class FacetTable {
   std::vector<PointRequests> requests_;  ///< Indexed by batch.
   std::vector<int32_t> turning_;         ///< Indexed by vertex of a grid.
   std::vector<int32_t> sides_;           ///< The result of findSides().
-  std::vector<int> corners_;             ///< Points of a grid's vertices, Front before Back; -1 before they are made.
+  std::vector<int> corners_;  ///< Two points for each vertex of a grid, Front and Back; -1 before they are made.
   std::map<std::pair<uint32_t, Side>, uint32_t> folded_;  ///< Facets of cells that may be seen from both sides.
 };
 

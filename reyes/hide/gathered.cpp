@@ -12,7 +12,7 @@ TOMALES_HOT void Gathered::readBlock(const Sources& from, int row, int i) {
   for (int k = 0; k < kLanes; ++k) readCell(from, k, row, i);
 }
 
-/// It has no branches, because all lanes of a vector take both ways.
+/// It has no branches, because all lanes of a vector compute both sides.
 TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& out) {
   // factors that stand for the branch on perspective
   const float fromEye = perspective ? 1.0f : 0.0f, parallel = 1 - fromEye;
@@ -23,8 +23,8 @@ TOMALES_HOT void derive(const Gathered& g, bool perspective, const PointBlock& o
     // For a cell this is half the cross product of the diagonals: its area, exactly so if it is flat.
     const float spanX = uy * vz - uz * vy, spanY = uz * vx - ux * vz, spanZ = ux * vy - uy * vx;
     const float area2 = spanX * spanX + spanY * spanY + spanZ * spanZ;
-    // A normal that has turned away from the eye though its side is seen becomes that of the outline, slightly turned
-    // to the eye.
+    // A normal that points away from the eye although its side is seen becomes the normal of the outline, turned
+    // slightly to the eye.
     const float ix = fromEye * g.P[0][i], iy = fromEye * g.P[1][i], iz = fromEye * g.P[2][i] + parallel;
     const float along = spanX * ix + spanY * iy + spanZ * iz, i2 = ix * ix + iy * iy + iz * iz;
     const float back = (g.side[i] * kOutline * std::sqrt(area2 * i2) - along) / i2;

@@ -1,5 +1,5 @@
-// Private to the hider: the values of points to shade, read from the lattice of a grid and derived for many points at
-// once.
+// Private to the hider: reads the values of points to shade from the vertices of a grid, and derives others for many
+// points at once.
 #pragma once
 #include "reyes/grid.h"
 #include "reyes/points.h"
@@ -85,7 +85,7 @@ struct alignas(64) Gathered {
   }
 
  private:
-  static constexpr int kRun = 4;  ///< A vector is worth its cost for at least so many cells.
+  static constexpr int kRun = 4;  ///< Least number of cells for which a vector is worth its cost.
   struct Sources {
     const float *P[3], *N[3], *u, *v;
   };

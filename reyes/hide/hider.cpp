@@ -26,7 +26,7 @@ const Attributes& attributesOf(const Scene& scene, const Grid& grid) {
   return *scene.objects[static_cast<size_t>(grid.object)].attributes;
 }
 
-/// TransparentLayer::object of a grid's layers.
+/// Returns TransparentLayer::object for a grid's layers.
 int joinedObject(const RasterGrid& raster) {
   return raster.reaching.empty() || raster.blur || raster.inSolid ? -1 : raster.grid->object;
 }
@@ -65,7 +65,7 @@ struct Hider::Impl {
   size_t enough = kManyGrids;
   std::vector<uint32_t> unseen{};  ///< Cells that are shaded whether or not a sample sees them.
 
-  /// Frees grids that no sample sees any more, now and then.
+  /// Frees grids that no sample sees any more, from time to time.
   void dropUnseen() {
     if (grids.held() < enough) return;
     std::vector<uint32_t> wanted = samples.seen();

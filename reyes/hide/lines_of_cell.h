@@ -1,4 +1,4 @@
-// Private to the hider: the lines at which a cell ends instead of its own edges (RasterGrid::lines).
+// Private to the hider: the lines that replace edges of a cell (RasterGrid::lines).
 #pragma once
 #include "reyes/hide.h"
 

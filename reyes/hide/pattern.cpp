@@ -10,8 +10,8 @@
 namespace tomales {
 namespace {
 
-/// Numbers of patterns. 256 are so many that no repetition is seen. With very many samples a pixel has little error
-/// that could repeat, and many patterns would fill the memory.
+/// Limits on the number of patterns. With 256 no repetition is visible. With very many samples, a pixel has little
+/// error that could repeat, and many patterns would fill the memory.
 constexpr int kMostPatterns = 256, kLeastPatterns = 16, kSamplesOfPatterns = 1 << 20;
 
 /// Returns the position `inside` (0..1) of stratum `i` of n, on the lattice but never in another stratum.
@@ -27,8 +27,8 @@ float within(int i, int n, float inside) {
   return std::min((static_cast<float>(i) + inside) / count, std::nextafter(static_cast<float>(i + 1) / count, 0.0f));
 }
 
-/// The part of the shutter that a cell samples, as a shuffled Latin square. Not only the pixel but each of its rows and
-/// columns then samples the whole shutter, so that motion along x or y is blurred evenly.
+/// The part of the shutter that a cell samples, as a shuffled Latin square. So each row and column of a pixel, not only
+/// the whole pixel, samples the whole shutter, and motion along x or y is blurred evenly.
 class Times {
  public:
   Times(int xSamples, int ySamples, uint32_t name)
@@ -54,7 +54,7 @@ SamplePattern::SamplePattern(int xSamples, int ySamples, bool jitter, uint32_t s
       patterns_(std::clamp(kSamplesOfPatterns / count_, kLeastPatterns, kMostPatterns)),
       seed_(seed) {
   const size_t size = static_cast<size_t>(patterns_) * static_cast<size_t>(padded_);
-  // Padding repeats the corner of the pixel; the hider gives those lanes a depth that nothing can be in front of.
+  // Padding lanes have the corner of the pixel as position; the hider gives them a depth that nothing is in front of.
   x_.assign(size, 0);
   y_.assign(size, 0);
   time_.assign(size, 0);

@@ -22,7 +22,7 @@ class PixelLayers {
  public:
   using Nearer = std::function<bool(const CellCoverage&, const CellCoverage&)>;
   /// Splits coverages where surfaces pass through each other within a pixel, so that the list is nearest first for
-  /// every sample. It repeatedly takes the nearest coverage that is in front for any sample, for all samples for which
+  /// every sample. It repeatedly takes the nearest coverage that is in front for any sample, with all samples for which
   /// it is in front. Pre and post: the list is in the order of `nearer`.
   void order(std::vector<CellCoverage>& coverages, const Nearer& nearer);
 
@@ -49,7 +49,7 @@ class PixelLayers {
   static constexpr uint32_t kNone = ~0U;
 
  private:
-  /// Returns the first coverages that overlap in depth. Those that lie behind all of them can be sorted without them.
+  /// Returns the first run of coverages that overlap in depth. All others lie behind it, and are sorted apart from it.
   std::span<const CellCoverage> nextRun(std::span<const CellCoverage> coverages);
   bool overlap(std::span<const CellCoverage> coverages);
   bool inOrder(std::span<const CellCoverage> coverages);

@@ -16,8 +16,8 @@ struct Vertices {
   vec3 at(int v) const { return {x[v], y[v], z[v]}; }
 };
 
-/// Tells whether all vertices are seeable. Vertices that are not belong to cells that nobody sees, and are put where
-/// they do no harm.
+/// Tells whether all vertices are seeable. The others belong to cells that are not visible, and are put where they do
+/// no harm.
 TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y,
                           float* __restrict d) {
   const vec3 harmless(0, 0, camera.nearClip());
@@ -132,7 +132,7 @@ std::shared_ptr<const RasterGrid> project(std::shared_ptr<const Grid> grid, cons
   const size_t stride = static_cast<size_t>(g.stride()), size = stride * static_cast<size_t>(g.keyCount) + 2 * kLanes;
   for (PooledVector<float>* axis : {&r->x, &r->y, &r->d}) *axis = PooledVector<float>(size, 0.0f, pool.get());
   planBorders(*r, object, camera);
-  // Transparent surfaces would show an overlap that wide.
+  // Transparent surfaces would show such a wide overlap.
   const float mostOfDisplaced_px = opaque && attributes.displacement && object.displacementBound > 0
                                        ? borderReach_px(object.displacementBound)
                                        : 0.0f;

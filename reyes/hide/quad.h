@@ -61,8 +61,8 @@ struct FloatEdges {
     }
   };
 
-  /// Sets the lanes from g on to the edge from corner p to q, with the inside on the left where `left` holds, else on
-  /// the right.
+  /// Sets the lanes from g on to the edge from corner p to q, with the inside on the left where `left` holds, and on
+  /// the right elsewhere.
   HWY_INLINE void set(size_t g, const Corners& c, int p, int q, Mask left) {
     const Floats px = hn::Load(kF, c.x[p] + g), py = hn::Load(kF, c.y[p] + g), qx = hn::Load(kF, c.x[q] + g),
                  qy = hn::Load(kF, c.y[q] + g);
@@ -86,7 +86,7 @@ struct FloatEdges {
     dy[i] = along.y;
     limit[i] = swapped != left ? 0.0f : -kTiny;
   }
-  /// Makes the edges of a mask have no inside.
+  /// Gives the edges in a mask no inside.
   HWY_INLINE void close(size_t g, Mask closed) {
     hn::Store(hn::IfThenElse(closed, all(FLT_MAX), hn::Load(kF, limit + g)), kF, limit + g);
   }
@@ -133,7 +133,7 @@ struct SubpixelEdges {
 template <class Edges>
 struct alignas(64) Triangles {
   Edges ab, bc, ca, bd, dc;
-  int32_t flipped[kLanes];  ///< -1 if the inside of bc for abc is the outside for bdc; 0 if the quad is folded there.
+  int32_t flipped[kLanes];  ///< -1 if abc and bdc are on opposite sides of bc; 0 if the quad is folded there.
   float gx0[kLanes], gy0[kLanes], gx1[kLanes], gy1[kLanes];  ///< Depth gradients of abc and bdc.
   float depthError[kLanes];                                  ///< The error of depth keys, depthErrorBound().
 

@@ -40,16 +40,16 @@ inline Kept keptOf(const RasterJob& job, int cell) {
   const Kept kept = given.empty() ? Kept::All : given[static_cast<size_t>(cell)];
   return kept == Kept::All && (job.raster.clipped || !job.raster.detail.whole()) ? Kept::Part : kept;
 }
-/// Tells whether these keep the point of a cell that a sample meets. Pre: the cell covers it.
+/// Tells whether they keep the point of a cell that a sample meets. Pre: the cell covers the sample.
 bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane);
 /// Tests the same for the lanes of a mask that counts from `firstLane`.
 uint64_t keptLanes(const RasterJob& job, uint32_t cell, size_t firstLane, uint64_t lanes);
 
-/// Gives samples of a mask with equal depths to the cell whose name comes first.
+/// Gives samples in a mask with equal depths to the cell whose name comes first.
 void settleTies(const RasterJob& job, size_t firstLane, uint64_t lanes, uint32_t cell);
 
-/// Notes a depth conflict where the cell comes so close to the earlier depth of samples of a mask that depth errors
-/// decide, if that is of another object.
+/// Notes a depth conflict for samples in a mask that see another object so close to the cell that depth errors decide
+/// between them.
 void noteDepthConflict(const RasterJob& job, size_t firstLane, uint64_t lanes, float depthError);
 
 }  // namespace tomales

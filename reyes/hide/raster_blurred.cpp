@@ -1,7 +1,7 @@
 // Rasterises micropolygons that move or are out of focus: every sample meets the vertices where they are at its time,
 // seen through its point of the lens. A box around many micropolygons, at that time and through that point, is no
-// larger than when it is still. So the samples of a bucket are tested against the box of the grid, of its quarters, of
-// their quarters, down to micropolygons, and few remain that miss.
+// larger than for a still, sharp grid. So the samples of a bucket are tested against the box of the grid, of its
+// quarters, and so on down to micropolygons, where few samples miss.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reyes/hide/raster_blurred.cpp"
 #include "reyes/base/vector.h"  // Includes this file again for each target.
@@ -84,8 +84,8 @@ HWY_INLINE uint32_t* keep(const SampleVector& s, Numbers lane, Mask mask, uint32
   return end + hn::CountTrue(kF, mask);
 }
 
-/// Distributes the samples of a list to the lists of four boxes that contain them. One loop for all four has a single
-/// mispredicted end, and reads no list just after it was written.
+/// Distributes the samples of a list among four boxes, to the list of each box that contains them. One loop for all
+/// four has a single mispredicted end, and reads no list that has just been written.
 template <class B>
 HWY_INLINE void cullSamples(const Box<B>& a, const Box<B>& b, const Box<B>& c, const Box<B>& d, const SampleList& from,
                             SampleList (&to)[4]) {
@@ -185,7 +185,7 @@ class Descent {
     stack_->pop(samples.count, 4);
   }
 
-  /// Boxes that are tested next are far away in memory if another bucket was the last to test them.
+  /// Prefetches boxes that are tested next, which are not in the cache if another bucket tested them last.
   void fetch(const BlurBounds::Level& level, int i, int j) const {
     for (int y = j; y < std::min(j + 4, level.rows); ++y) {
       const BlurBox* box = &bounds_.box(key_, level, i, y);
@@ -236,7 +236,8 @@ class Descent {
     out.nearer[pixel] = 1;
   }
 
-  /// Does the same for most samples, with pointers that need not be read again after every flag, which may alias all.
+  /// Does the same for opaque cells. Its pointers are locals, because writing a flag may alias any member, which would
+  /// be read again.
   HWY_INLINE void giveOpaque(const uint32_t* lanes, const float* depths, uint64_t samples, uint32_t cell) {
     float* depth = job_.out.depth.data();
     uint32_t* cells = job_.out.cell.data();

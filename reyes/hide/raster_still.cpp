@@ -25,7 +25,7 @@ bool endAtLines(const RasterGrid& r, const Corners& q, uint64_t cells) {
 }
 
 void setLines(const RasterGrid&, const Corners&, uint64_t, Triangles<SubpixelEdges>&) {}
-/// Puts lines in the place of the edges of cells that end at them.
+/// Replaces edges of cells by the lines at which the cells end.
 void setLines(const RasterGrid& r, const Corners& q, uint64_t cells, Triangles<FloatEdges>& t) {
   if (r.lines.empty()) return;
   for (; cells; cells &= cells - 1) {
@@ -91,8 +91,8 @@ HWY_INLINE void runPixelTests(const RasterJob& job, const Corners& q, const Tria
   }
 }
 
-/// A small cell covers few pixels, and branches on which ones would be mispredicted, so one list holds those of many
-/// cells (docs/decisions/0102).
+/// A small cell covers few pixels, and branches on which ones would be mispredicted. So one list holds the pixels of
+/// many cells (docs/decisions/0102).
 template <class Edges>
 void depthTestCells(const RasterJob& job, const Corners& q, uint64_t cells) {
   const uint64_t all = cells;

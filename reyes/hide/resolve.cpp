@@ -19,7 +19,7 @@ struct LayerInOrder {
   uint32_t layer;
   int object;          ///< TransparentLayer::object
   float depth = 0;     ///< Range of depth keys within a cell of that object here.
-  uint64_t twice = 0;  ///< Samples that a neighbour shows too.
+  uint64_t twice = 0;  ///< Samples that a neighbour also covers.
   bool operator<(const LayerInOrder& o) const { return extent.nearest < o.extent.nearest; }
 };
 
@@ -128,7 +128,7 @@ class TileBuilder {
     if (grids_.anySmooth() && grids_.of(cell).raster->smooth) setPosition(f, cell, pixel);
   }
 
-  /// Adds the layers of a pixel. Layers that lie behind all before them are sorted without them.
+  /// Adds the layers of a pixel. Layers that lie behind all previous ones are sorted separately.
   void addLayers(size_t pixel) {
     findLayers(pixel);
     const std::vector<LayerInOrder>& ordered = scratch_.ordered;
@@ -188,8 +188,7 @@ class TileBuilder {
       return std::popcount(f.samples) <
              std::min(64, samples_.sampleCount() - 64 * static_cast<int>(f.word % layers.wordsOfPixel()));
     };
-    // The range of depths in a cell of neighbours is estimated from layers that fill a pixel; a few samples do not show
-    // it.
+    // The depth range in a cell is estimated from layers that fill a pixel, because a few samples do not show it.
     float most = 0;
     for (LayerInOrder& s : ordered) {
       if (s.object < 0) continue;
@@ -220,7 +219,7 @@ class TileBuilder {
 
   /// Adds the coverages; `overlapping` means that a sample may see several of them.
   void addCoverages(size_t pixel, bool overlapping) {
-    // They are in order of depth; equal depths have an order that does not depend on the schedule.
+    // They are sorted by depth. Equal depths have an order that does not depend on the schedule of threads.
     const auto nearer = [this](const CellCoverage& a, const CellCoverage& b) {
       if (a.d != b.d) return a.d < b.d;
       if (a.cell != b.cell) return grids_.precedes(a.cell, b.cell);
@@ -273,7 +272,7 @@ class TileBuilder {
     const int cell = static_cast<int>(cellNumber - entry.firstCell);
     const size_t first = pixel * static_cast<size_t>(samples_.lanes) + size_t{64} * fragment.word;
     const bool blurred = entry.raster->blur != nullptr;
-    // The corners of a still cell in focus are the same for all samples: one query at their mean place suffices.
+    // The corners of a still cell in focus are the same for all samples, so one query at their mean place suffices.
     vec2 places(0), positions(0);
     for (uint64_t left = fragment.samples; left != 0; left &= left - 1) {
       const SamplePoint sample = samplePoint(samples_, first + static_cast<size_t>(std::countr_zero(left)));

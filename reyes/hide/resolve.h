@@ -6,8 +6,8 @@
 
 namespace tomales {
 
-/// unseen: cells that become points to shade even where no sample sees them. diagnostics: HideDiagnostics::turns is
-/// added to; may be null.
+/// unseen: cells that become points to shade even if no sample sees them. diagnostics: gets counts in
+/// HideDiagnostics::turns; may be null.
 DeepTile resolveTile(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples,
                      std::span<const uint32_t> unseen, HideDiagnostics* diagnostics = nullptr);
 
@@ -28,8 +28,8 @@ struct SeenCell {
 SeenCell seenCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 /// Returns the depth key of a cell where a sample meets it.
 float depthOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
-/// Returns the place on a cell (its own (u,v), 0..1) where a sample meets it, or beyond it where the sample meets the
-/// plane of one of its triangles.
+/// Returns where a sample meets a cell, in the cell's own (u,v) from 0 to 1. If the sample is outside of the cell, it
+/// returns where it meets the plane of one of the triangles, beyond that range.
 vec2 positionOnCell(const GridTable::Entry& entry, const Camera& camera, int cell, const SamplePoint& sample);
 
 }  // namespace tomales

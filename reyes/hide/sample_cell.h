@@ -1,6 +1,6 @@
 // Private to the hider: tests a cell of a still, sharp grid against samples, kLanes of a pixel at a time. It is
-// included once for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane): the mask of
-// samples inside it; depth(x, y, mask): their depth keys; and depthError(): the error of those.
+// included once for each vector width, after reyes/base/vector.h. A Shape has covers(samples, lane), the mask of
+// samples inside it; depth(x, y, mask), their depth keys; and depthError(), the error of these keys.
 #include "reyes/hide/raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,8 +36,8 @@ HWY_INLINE VisibleSamples visibleSamples(const RasterJob& job, const Shape& shap
   return r;
 }
 
-/// The depth test of an opaque cell: it takes the samples from `lane` on that it covers in front of what they had. It
-/// has no branch for samples outside of the cell, which would be mispredicted.
+/// The depth test of an opaque cell: gives it the samples from `lane` on that it covers in front of what they saw so
+/// far. There is no branch for samples outside of the cell, because it would be mispredicted.
 template <class Shape>
 HWY_INLINE void depthTest(const RasterJob& job, const Shape& shape, size_t lane, uint32_t cell, Kept kept) {
   SampleBuffer& out = job.out;
@@ -80,7 +80,7 @@ template <class Shape>
 HWY_INLINE void addToLayer(const RasterJob& job, const Shape& shape, size_t pixel, uint32_t cell, Kept kept) {
   TransparentLayers& layers = job.out.layersOf(job.raster);
   const size_t lanes = static_cast<size_t>(job.out.lanes), first = pixel * lanes;
-  if (lanes == hn::Lanes(kF)) {  // Nothing need leave the registers.
+  if (lanes == hn::Lanes(kF)) {  // Everything can stay in registers.
     const VisibleSamples r = visibleSamples(job, shape, first, cell, kept);
     const uint64_t samples = bitsOf(r.mask);
     if (samples == 0) return;
@@ -106,7 +106,7 @@ HWY_INLINE void addToLayer(const RasterJob& job, const Shape& shape, size_t pixe
   }
 }
 
-/// Tests the samples of the pixels that a cell may touch. make(): makes its shape, once it is known that the cell is
+/// Tests the samples of the pixels that a cell may touch. make() returns its shape; it is called only if the cell is
 /// not hidden.
 template <bool kOpaque, class Make>
 HWY_INLINE void sampleCell(const RasterJob& job, const PixelRect& pixels, float dMin, uint32_t cell, Kept kept,

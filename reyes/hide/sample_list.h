@@ -4,8 +4,8 @@
 
 namespace tomales {
 
-/// Arrays that a vector may write to beyond `count`. All are `stride` apart, so that few registers address those of
-/// four lists.
+/// Arrays that a vector may write to beyond `count`. All are `stride` apart, so that a few registers can address the
+/// arrays of four lists.
 struct SampleList {
   enum Array : size_t {
     kX,
@@ -25,7 +25,7 @@ struct SampleList {
 
 class SampleListStack {
  public:
-  /// Returns the thread's stack, whose memory is kept from grid to grid. It has room for `depth` lists of at most
+  /// Returns the thread's stack, which keeps its memory from grid to grid. It has room for `depth` lists of at most
   /// `most` samples.
   static SampleListStack& ofThread(size_t depth, size_t most) {
     static thread_local SampleListStack stack;
@@ -47,7 +47,7 @@ class SampleListStack {
     return most + 2 * static_cast<size_t>(kLanes) - most % static_cast<size_t>(kLanes);
   }
 
-  UnsetVector<uint32_t> memory_;  ///< Little of it is touched: lists get short.
+  UnsetVector<uint32_t> memory_;  ///< Little of it is touched, because lists soon get short.
   size_t used_ = 0;
 };
 

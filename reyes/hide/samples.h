@@ -1,5 +1,5 @@
-// Private to the hider: the samples of one bucket, and the grids that compete for them. A micropolygon is named by its
-// number among all cells inserted: the grid's first number plus its cell index.
+// Private to the hider: the samples of one bucket, and the grids that compete for them. A micropolygon is identified by
+// its number among all cells inserted, which is the grid's first number plus the cell's index.
 #pragma once
 #include <cfloat>
 
@@ -30,7 +30,7 @@ class GridTable {
   void keepOnly(const std::vector<uint32_t>& cells);
   size_t held() const { return held_; }          ///< Number of grids that are not freed.
   bool anySmooth() const { return anySmooth_; }  ///< True if any grid is RasterGrid::smooth.
-  /// Decides between equal depths: by name, never by pointer or order of insertion.
+  /// Decides between cells of equal depth by their names, never by pointer or order of insertion.
   bool precedes(uint32_t a, uint32_t b) const;
 
  private:
@@ -45,7 +45,7 @@ class GridTable {
 struct DepthConflict {
   uint32_t lane;
   int first, second;  ///< first < second
-  float least;        ///< Depth key of the nearer one; a sample with a smaller key has hidden both.
+  float least;        ///< Depth key of the nearer one. If the sample's final key is smaller, both are hidden.
   bool operator==(const DepthConflict& o) const { return lane == o.lane && first == o.first && second == o.second; }
 };
 
@@ -55,8 +55,8 @@ struct PixelTest {
   int cell;
 };
 
-/// Arrays have a lane for each sample: those of a pixel are adjacent, padded to `lanes`. Padding lanes are hidden from
-/// all.
+/// Arrays have a lane for each sample. The lanes of a pixel are adjacent and padded to `lanes`; no cell ever takes a
+/// padding lane.
 struct SampleBuffer {
   SampleBuffer(const SamplePattern& pattern, const Camera& camera, const PixelRect& rect);
 
@@ -85,7 +85,7 @@ struct SampleBuffer {
   }
   /// Makes times and lens positions, for the first grid that moves or is out of focus.
   void addTimesAndLens();
-  /// Returns the number of a lane that DetailShare compares.
+  /// Returns a lane's number from 0 to 1 that DetailShare compares with.
   float detail(size_t lane) const {
     const size_t width = static_cast<size_t>(lanes);
     return pattern_.detail(patternAt_[lane / width])[lane % width];
@@ -125,13 +125,13 @@ struct SampleBuffer {
         if (!(far[pixelIndex(column, row)] < d)) return false;
     return true;
   }
-  /// Tells whether every sample within a raster bound is nearer. In a few pixels samples are tested one by one, because
-  /// a small bound mostly lies between them.
+  /// Tells whether every sample within a raster bound is nearer than depth key d. If the bound covers only a few
+  /// pixels, samples are tested one by one, because a small bound mostly lies between them.
   bool hides(const Bound2& bound, float d) const;
 
  private:
   static constexpr int kFew_px = 4, kHalf_px = 32;
-  static constexpr int kMostExact_px = 16384;  ///< Beyond, floats round positions, some of them to the next pixel.
+  static constexpr int kMostExact_px = 16384;  ///< Beyond it floats round positions, some of them to the next pixel.
   const SamplePattern& pattern_;
   const vec2 lens_;
   std::vector<int> patternAt_;  ///< Indexed by pixel.

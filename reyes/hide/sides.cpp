@@ -10,7 +10,7 @@ float areaOf(const vec2& p, const vec2& q, const vec2& r) {
   return u.x * v.y - u.y * v.x;
 }
 
-/// Depth key of a triangle where a sample meets it; infinite if it misses.
+/// Returns the depth key of a triangle where a sample meets it; infinity if it misses.
 float depthIn(const vec3& p, const vec3& q, const vec3& r, const vec2& at) {
   const float area = areaOf(vec2(p), vec2(q), vec2(r));
   const float b = areaOf(vec2(p), at, vec2(r)) / area, c = areaOf(vec2(p), vec2(q), at) / area;

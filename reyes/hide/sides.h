@@ -1,13 +1,13 @@
-// Private to the hider: the side of a micropolygon that samples see, on which it is lit. Its mean normal does not show
-// it, because at an outline one of its triangles may face the eye and the other turn away.
+// Private to the hider: finds the side of a micropolygon that samples see, which is the side that is lit. The mean
+// normal does not show it, because at an outline one triangle may face the eye and the other turn away.
 #pragma once
 #include "reyes/hide/resolve.h"
 
 namespace tomales {
 
 /// Returns the sign of the raster area, u before v, of a micropolygon whose dP/du x dP/dv faces the eye. The shape
-/// alone decides the side. Shading normals must not: at a fold those of a micropolygon may point either way, which
-/// would leave holes in a closed body (docs/decisions/0003).
+/// alone decides the side. Shading normals must not: at a fold they may point either way, which would leave holes in a
+/// closed body (docs/decisions/0003).
 float facingSign(const Camera& camera);
 
 enum class Side : uint8_t {

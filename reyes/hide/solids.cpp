@@ -8,8 +8,8 @@
 namespace tomales {
 namespace {
 
-/// Coincident surfaces may be found so far apart, as a share of the depth range of a micropolygon, which is about a
-/// pixel wide: vertices are moved to the lattice, and depths are rounded.
+/// Greatest distance between surfaces that are coincident, as a share of the depth range of a micropolygon, which is
+/// about a pixel wide: vertices are snapped to the lattice, and depths are rounded.
 constexpr float kSlackOfCell = 4e-3f;
 constexpr float kSideRounding = 1e-6f;
 
@@ -85,8 +85,8 @@ class SolidResolver {
       if (visible(line[b.crossing], b.entering) && compete(line[b.crossing])) return;
   }
 
-  /// The surface of a solid has an outside of its own, whatever the orientation of its primitives. It is complete
-  /// before it is clipped.
+  /// The surface of a solid has its own outside, whatever the orientation of its primitives. It is computed before
+  /// clipping.
   bool visible(const Crossing& c, bool entering) const {
     const Attributes& a = *objectOf(c.cell).attributes;
     const SamplePoint sample = samplePoint(samples_, c.lane);

@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// Takes `samples.crossings` and lets the boundaries of the solids compete for the samples like other surfaces. Call it
-/// after the last grid: until then a solid hides nothing.
+/// Finds the boundaries of the solids from `samples.crossings`, and lets them compete for the samples like other
+/// surfaces. Call it after the last grid; before that a solid hides nothing.
 void resolveSolids(const Scene& scene, const Camera& camera, const GridTable& grids, SampleBuffer& samples);
 
 }  // namespace tomales

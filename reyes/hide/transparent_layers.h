@@ -1,4 +1,4 @@
-// Private to the hider: the samples that transparent micropolygons cover, before it is known what hides them.
+// Private to the hider: the samples that transparent micropolygons cover, some of which opaque surfaces may hide later.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -9,8 +9,8 @@
 
 namespace tomales {
 
-/// The samples among up to 64 of a pixel that cells of one grid cover, each sample once. It is mostly one surface's
-/// part of the pixel.
+/// The samples, among up to 64 of a pixel, that cells of one grid cover, each sample once. Mostly it is the part of the
+/// pixel that one surface covers.
 struct TransparentLayer {
   uint32_t word;  ///< Bit s of `samples` is lane 64 * (word % TransparentLayers::wordsOfPixel()) + s of pixel word /
                   ///< wordsOfPixel().
@@ -19,8 +19,8 @@ struct TransparentLayer {
   uint64_t samples;
 };
 
-/// It grows in memory that its thread keeps from bucket to bucket, up to a limit: one bucket of very many layers is no
-/// reason to hold as much for the rest of the frame.
+/// Its thread keeps the memory from bucket to bucket, up to a limit, so that one bucket with very many layers does not
+/// hold memory for the rest of the frame.
 class TransparentLayers {
  public:
   static constexpr float kUncovered_d = __builtin_inff();

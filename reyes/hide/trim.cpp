@@ -21,7 +21,7 @@ bool keepsSample(const RasterJob& job, uint32_t cell, size_t lane) {
     const vec2 uv = g.onPatch(index, positionOnCell(entry, job.camera, index, moved));
     return raster.trim->keeps(g.pieces[static_cast<size_t>(g.pieceOfCell(index))].patch, uv.x, uv.y);
   };
-  // The surfaces on both sides of a trim curve have chords of it as edges: each reaches out by its own error, so that
+  // The surfaces on both sides of a trim curve have chords of it as edges. Each reaches out by its own error, so that
   // they meet.
   const float r = raster.trimReach_px;
   return keeps({0, 0}) || keeps({r, 0}) || keeps({-r, 0}) || keeps({0, r}) || keeps({0, -r});

@@ -14,7 +14,7 @@ bool isKept(const RasterGrid& raster, int cell) {
   return raster.trim->keeps(g.pieces[static_cast<size_t>(g.pieceOfCell(cell))].patch, middle.x, middle.y);
 }
 
-/// Twice the signed area of the cell in raster space.
+/// Returns twice the signed area of the cell in raster space.
 float areaOf(const RasterGrid& r, const CellSteps& at) {
   const float *x = r.x.data(), *y = r.y.data();
   return at.uStep(x) * at.vStep(y) - at.uStep(y) * at.vStep(x);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kRelativeFloor = 0.01;  // It keeps relative figures finite in the dark.
 
-/// Indices of R, G and B, or of all channels except alpha and depth where there is no colour.
+/// Returns the indices of R, G and B or, if there is no colour, of all channels except alpha and depth.
 std::vector<int> colorChannels(const Image& image) {
   std::vector<int> out;
   for (const char* name : {"R", "G", "B"})
@@ -112,8 +112,8 @@ std::array<ComparedPlane, 3> seenPlanes(const Image& image) {
 
 // Returns the colour half of FLIP (Andersson et al. 2020) in its simplest form. Colours are clamped to the display, and
 // blurred by a Gaussian of one pixel where FLIP has contrast sensitivity. Their HyAB distance in L*a*b* is compressed
-// by the power 0.7 and scaled so that green against blue is 1. It has none of FLIP's edge and point detection, so its
-// numbers are not to be held against FLIP's.
+// by the power 0.7 and scaled so that green against blue is 1. It lacks FLIP's edge and point detection, so its numbers
+// are not comparable with FLIP's.
 double flipLike(const Image& test, const Image& reference) {
   const std::array<ComparedPlane, 3> a = seenPlanes(test), b = seenPlanes(reference);
   const float scale = std::pow(hyab(lab({0, 1, 0}), lab({0, 0, 1})), 0.7f);
@@ -129,10 +129,10 @@ struct SmoothFigures {
   double smudges = 0, specks = 0;
 };
 
-/// Returns what shows on a smooth wall, in blocks of so many pixels along an edge. Both figures come from ratios of
-/// test and reference, so that a picture which is brighter as a whole has neither smudges nor specks.
+/// Returns the smudges and specks of smooth regions, from blocks of `block` pixels along an edge. Both are computed
+/// from ratios of test and reference, so a picture that is brighter as a whole has neither.
 SmoothFigures smoothFigures(const Image& test, const Image& reference, int block) {
-  constexpr double kSpeck = 0.2;  // A pixel that is off its block by more than this share is a speck.
+  constexpr double kSpeck = 0.2;  // A pixel that differs from its block by more than this share is a speck.
   const auto light = [](const Image& image) {
     const std::vector<int> channels = colorChannels(image);
     return planeOf(image, [&](const float* p) { return luminance(colorAt(p, channels)); });

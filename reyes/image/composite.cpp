@@ -154,7 +154,7 @@ ResolvedTile Compositor::resolve(const DeepTile& tile) {
   return out;
 }
 
-/// Makes room for the values of further contributions, and returns where they begin.
+/// Makes room for the values of further contributions, and returns the address of the first.
 float* Compositor::room(size_t contributions, ResolvedTile& out) const {
   const size_t at = out.values.size();
   out.values.resize(at + contributions * static_cast<size_t>(width()));
@@ -177,7 +177,7 @@ void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const 
 /// Notes the depths of a fragment; Options::depthFilter may need the second surface, behind an opaque one.
 void Compositor::noteDepth(const DeepTile& tile, const Fragment& f) {
   const Facet& facet = tile.facets[f.facet];
-  // Neighbours on one surface overlap at their border (docs/decisions/0003), which makes no second surface.
+  // Neighbours on one surface overlap at their border (docs/decisions/0003), which does not count as a second surface.
   const float overlap = tile.edgeOf(facet);
   for (uint64_t left = f.samples; left; left &= left - 1) {
     const size_t sample = size_t{f.word} * 64 + static_cast<size_t>(lowestBit(left));

@@ -1,5 +1,5 @@
-// Private to reyes/image: turns the fragments of a pixel into contributions, each the final value of some samples, so
-// that a pixel is composited once and not once for every neighbour whose filter reaches it.
+// Private to reyes/image: turns the fragments of a pixel into contributions. A contribution is the final value of some
+// samples. So a pixel is composited once, and not once for every neighbour whose filter reaches it.
 #pragma once
 #include "reyes/deep.h"
 #include "reyes/image/sample_stack.h"
@@ -17,7 +17,8 @@ struct Contribution {
 /// Contributions of the pixels of a tile; those of pixel i are [first[i], first[i + 1]).
 struct ResolvedTile {
   std::vector<Contribution> contributions;
-  /// Compositor::width() floats each: R G B A, then the extra floats. kMargin more floats after the last may be read.
+  /// Compositor::width() floats for each contribution: R G B A, then the extra floats. kMargin more floats after the
+  /// last may be read.
   UnsetVector<float> values;
   static constexpr size_t kMargin = 4;
   std::vector<uint32_t> first;
@@ -33,22 +34,21 @@ class Compositor {
 
   ResolvedTile resolve(const DeepTile& tile);
 
-  /// Goes over the visible fragments front to back and calls visit(fragment, shade, samples, clear), with the share of
-  /// light that passes everything before these samples of it. At the end it calls visit for the air that is seen beside
-  /// the last fragment of each sample.
+  /// Goes over the visible fragments front to back and calls visit(fragment, shade, samples, clear). `clear` is the
+  /// share of light that passes everything in front of the fragment at these samples. At the end it calls visit for the
+  /// air beside the last fragment of each sample.
   template <class Visit>
   void layers(const DeepTile& tile, const DeepPixel& pixel, const Visit& visit);
 
  private:
-  /// The shade of a facet of one point, the same for all fragments; it is not known for other facets.
+  /// The shade of a facet with one point, which is the same for all its fragments; unknown for other facets.
   struct KnownShade {
     FacetShade shade;
     bool known = false;
     bool deep = false;  ///< The result of hasDepth().
   };
   void shadeFacets(const DeepTile& tile);
-  /// Pre: shadeFacets(). The result is valid until the next tile, or if it is blended, until as many others are blended
-  /// as fit into `blended_`.
+  /// Pre: shadeFacets(). A blended result is valid until the next pixel, any other until the next tile.
   const KnownShade& shadeOf(const DeepTile& tile, const Fragment& fragment) {
     const KnownShade& known = shades_[fragment.facet];
     return known.known ? known : blended(tile, fragment);

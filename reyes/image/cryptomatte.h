@@ -16,7 +16,7 @@ float cryptoId(const std::string& name);
 void cryptomatte(const DeepFrame& frame, const Options& options, const SampleOffsets& samples,
                  const std::vector<std::string>& names, int first, Image& band);
 
-/// Metadata of a layer: its name, how ids are made, and all names with their ids.
+/// Returns the metadata of a layer: its name, how ids are made, and all names with their ids.
 std::vector<Metadata> cryptoMetadata(const std::string& layer, const std::vector<std::string>& names);
 
 }  // namespace tomales

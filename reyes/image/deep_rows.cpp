@@ -1,6 +1,6 @@
 // Turns the layers of the samples around a pixel into a short list of depths. The layers at one depth are a share of
-// the filtered pixel; as in deep shadow maps (Lokovic and Veach 2000) the shares, front to back, give the light that
-// remains behind each depth.
+// the filtered pixel. As in deep shadow maps (Lokovic and Veach 2000), the shares from front to back give the light
+// that remains behind each depth.
 #include "reyes/image/deep_rows.h"
 #include "reyes/base/parallel.h"
 
@@ -16,7 +16,7 @@ struct Share {
   vec3 color, coverage;
 };
 
-/// Turns shares into samples: those near each other in depth, or too faint to matter, are merged.
+/// Turns shares into samples, merging shares that are near in depth or too faint to matter.
 class Merger {
  public:
   Merger(const DeepMerge& merge, DeepRows& out) : merge_(merge), out_(out) {}

@@ -27,16 +27,16 @@ struct LayeredRows {
     return {layers.data() + first[i], first[i + 1] - first[i]};
   }
 };
-/// Layers of rows [y0, y1), as far as the frame has samples.
+/// Returns the layers of rows [y0, y1), as far as the frame has samples.
 LayeredRows layersOf(const DeepFrame& frame, const Options& options, int y0, int y1);
 
-/// Returns the PixelFilter of the options; a box of one pixel replaces one with negative lobes.
+/// Returns the PixelFilter of the options; a box of one pixel replaces a filter with negative lobes.
 PixelFilter positiveFilter(const Options& options);
 
-/// Samples of R G B A Z ZBack (AR AG AB Z ZBack) of every pixel of rows of the crop window. Flattened by "over" they
-/// give the filtered pixel. The opacity before any depth is right except for the effect of merging: depths move by up
-/// to `depth` of their distance, or the opacity differs by up to `opacity`. A box of one pixel replaces a filter with
-/// negative lobes, because remaining light cannot grow.
+/// Returns deep samples R G B A Z ZBack (AR AG AB Z ZBack) for every pixel of some rows of the crop window. Flattened
+/// by "over" they give the filtered pixel. The opacity in front of any depth is right but for merging, which moves
+/// depths by up to the share `depth` of their distance, or changes opacity by up to `opacity`. A box of one pixel
+/// replaces a filter with negative lobes, because transmitted light cannot grow.
 DeepRows deepRows(const DeepFrame& frame, const Options& options, const SampleOffsets& samples, const DeepMerge& merge,
                   int y0, int y1);
 

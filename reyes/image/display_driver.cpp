@@ -19,7 +19,7 @@ using namespace driver;
 
 namespace {
 
-constexpr int kPatience_s = 5;  ///< The wait for a driver that does not answer, once the program is told to end.
+constexpr int kPatience_s = 5;  ///< Longest wait for a driver that does not answer, once the program has to end.
 
 /// Waits for data from the other side. Returns false if it takes too long.
 bool arrives(int socket) {

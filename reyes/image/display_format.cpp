@@ -20,7 +20,7 @@ bool everyFormatTakes(const std::string& name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Tells whether the Display's type says which data are written, and not only in which format.
+/// Tells whether the Display's type decides which data are written, and not only the format.
 bool writesPass(const DisplayCall& display) { return writesMap(display) || writesDeep(display); }
 
 std::string compressionOf(const DisplayCall& display) {

@@ -10,9 +10,9 @@ std::string displayText(const DisplayCall& display, const char* name);
 void warnAboutParams(const DisplayCall& display, Log& log);
 /// Reports parameters that a driver has not read, unless the renderer has.
 void warnOfUnreadParams(const DisplayCall& display, const std::vector<std::string>& unread, Log& log);
-/// Reports a driver that would be taken if it were trusted.
+/// Reports a driver that is not used only because it is not trusted.
 void warnOfRefusedDriver(const DisplayCall& display, const Options& options, const PluginTrust& trust, Log& log);
-/// Decides the file format, and reports what of the Display it has no use for.
+/// Decides the file format, and reports parameters of the Display that the format cannot use.
 FileFormat formatOf(const DisplayCall& display, Log& log);
 
 }  // namespace tomales

@@ -91,7 +91,7 @@ class Host {
  public:
   explicit Host(const char* path) : path_(path) {}
 
-  /// Returns the answer's text; throws it if something is wrong.
+  /// Serves a request. Returns the answer's text, and throws it as the message if something is wrong.
   std::string serve(Request request, BytesView bytes) {
     char problem[TM_DISPLAY_PROBLEM_BYTES] = "";
     const auto check = [&](bool good, const char* function) {

@@ -1,6 +1,6 @@
 // Private to reyes/image: the protocol between DisplayDriver and the program that it starts, over a socket. The answer
-// to each request says whether it went well, and has a text: what went wrong or, for Open, the parameters that were not
-// read, each in a line.
+// to each request says whether it succeeded, and has a text: what went wrong or, for Open, the unread parameters, one
+// per line.
 #pragma once
 #include <sys/socket.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@ constexpr int kSocket = STDERR_FILENO + 1;  ///< The socket's descriptor in the 
 
 enum class Request : uint32_t { Open, Rows, Close };
 
-/// The heads of messages in the two directions. `bytes` follow.
+/// The heads of messages in the two directions. `bytes` bytes follow.
 struct RequestHead {
   Request request;
   uint64_t bytes;

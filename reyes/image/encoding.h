@@ -1,4 +1,4 @@
-// Private to image: how pixels become the numbers of a file.
+// Private to reyes/image: converts pixels to the numbers of a file.
 #pragma once
 #include <vector>
 
@@ -10,7 +10,7 @@ float exposed(float value, float gain, float gamma);
 void divideByAlpha(Image& image);
 /// Encodes all channels but alpha as sRGB.
 void encodeForScreen(Image& image);
-/// Makes integers from 0 to `limit` of each channel as its quantizer says.
+/// Converts each channel to integers from 0 to `limit`, by its quantizer.
 void quantise(Image& image, const std::vector<Quantize>& quantizers, float limit);
 
 }  // namespace tomales

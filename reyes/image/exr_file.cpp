@@ -158,7 +158,7 @@ class ExrFile : public FormatWriter {
     stream.open(path, std::ios::binary);
     check();
     out = std::make_unique<Imf::StdOFStream>(stream, path.c_str());
-    const int helpers = threadCount() > 1 ? threadCount() : 0;  // they compress; if there are none, the caller does
+    const int helpers = threadCount() > 1 ? threadCount() : 0;  // threads that compress; without any, the caller does
     if (Imf::globalThreadCount() < helpers) Imf::setGlobalThreadCount(helpers);
     file = std::make_unique<Imf::MultiPartOutputFile>(*out, headers.data(), static_cast<int>(headers.size()), false,
                                                       helpers);

@@ -1,4 +1,4 @@
-// Private to the OpenEXR files: a writer for headers that exist already, as those of tiles do.
+// Private to the OpenEXR files: a writer for existing headers, such as those of tiles.
 #pragma once
 #include <OpenEXR/ImfHeader.h>
 
@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Each of the headers is one part of the file. Every channel of them is one of `shape`, and no two parts share one.
+/// Each header is one part of the file. All their channels are channels of `shape`, and no two parts share one.
 std::unique_ptr<FormatWriter> openExrOf(const std::string& path, const Image& shape, std::vector<Imf::Header> headers);
 
 }  // namespace tomales

@@ -20,7 +20,8 @@
 namespace tomales {
 namespace {
 
-/// Attributes that say which part of the frame a tile is, and what it took, and so differ between tiles of one frame.
+/// Attributes that differ between tiles of one frame: which part of the frame the tile is, and statistics of its
+/// rendering.
 constexpr const char* kOfTile[] = {"dataWindow", "chunkCount", kStatistics};
 
 /// Messages for attributes that differ between tiles; other attributes are only named.
@@ -79,8 +80,8 @@ void refuseStranger(const PictureTile& first, const PictureTile& tile) {
     throw FileError(fmt::format("\"{}\" is no tile of the frame of \"{}\": {}", tile.path, first.path, why));
 }
 
-/// Refuses tiles that leave a pixel out. The edges of the tiles divide the window into cells that are covered wholly or
-/// not.
+/// Refuses tiles that leave a pixel out. The edges of the tiles divide the window into cells, each of which is covered
+/// wholly or not at all.
 void refuseGaps(const std::vector<PictureTile>& tiles, const PixelRect& whole) {
   std::set<int> columns{whole.x0}, rows{whole.y0};
   for (const PictureTile& t : tiles)

@@ -20,8 +20,8 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 constexpr int kBlockRows = 16;  ///< Rows of a block of ZIP_COMPRESSION ("The OpenEXR File Layout").
-/// Level of libdeflate, 1..12. Pictures are no larger than by zlib's 2, and higher levels gain 1 % at most where little
-/// is flat.
+/// Level of libdeflate, 1..12. Files are no larger than with level 2 of zlib, and higher levels save at most 1 % in
+/// pictures with few flat areas.
 constexpr int kLevel = 1;
 
 /// A channel of the file; channels are in the order of their names.
@@ -75,7 +75,7 @@ struct FreeCompressor {
   void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 
-/// Data that compression does not make smaller stay as they are.
+/// Returns the compressed data, or the data itself if compression does not make it smaller.
 Bytes compressed(Bytes raw) {
   static thread_local const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
       libdeflate_alloc_compressor(kLevel));

@@ -1,5 +1,5 @@
-// Private to the OpenEXR writer: pictures of scanlines in one part, in OpenEXR's ZIP. The files are the same as those
-// of OpenEXR's own writer, which uses zlib (until 3.2); libdeflate takes half the time (docs/decisions/0090).
+// Private to the OpenEXR writer: writes pictures of scanlines in one part, with ZIP compression. The files are the same
+// as those of OpenEXR's own writer, which uses zlib (until 3.2); libdeflate takes half the time (docs/decisions/0090).
 #pragma once
 #include <OpenEXR/ImfHeader.h>
 
@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// `header` is that of all channels of `shape`, with ZIP_COMPRESSION.
+/// `header` describes all channels of `shape`, with ZIP_COMPRESSION.
 std::unique_ptr<FormatWriter> openExrRows(const std::string& path, const Image& shape, const Imf::Header& header);
 
 }  // namespace tomales

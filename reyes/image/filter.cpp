@@ -6,8 +6,8 @@
 namespace tomales {
 namespace {
 
-// Formulas of RISpec 3.2 section 5.1.2, not normalised; the caller divides by the sum of weights. Where the printed
-// formula does not do what its name says, the function names the repair.
+// Formulas of RISpec 3.2 section 5.1.2, not normalised; the caller divides by the sum of weights. Where a printed
+// formula is not the filter of its name, a comment at the function describes the correction.
 using Kernel = float (*)(float x, float y, float xWidth, float yWidth);
 
 float box(float, float, float, float) { return 1; }
@@ -35,8 +35,8 @@ float sinc(float x) {
   const float t = kPi * x;
   return std::abs(t) < 1e-4f ? 1 : std::sin(t) / t;
 }
-// The formula is printed without pi and without a window; common renderers pass frequencies up to one half a pixel,
-// under a cosine lobe.
+// The formula is printed without pi and without a window. Common renderers pass frequencies up to half a cycle per
+// pixel, under a cosine lobe.
 float sincLobe(float x, float width) { return std::cos(kPi * x / (2 * width)) * sinc(x); }
 float windowedSinc(float x, float y, float xWidth, float yWidth) { return sincLobe(x, xWidth) * sincLobe(y, yWidth); }
 
@@ -66,8 +66,8 @@ float disk(float x, float y, float xWidth, float yWidth) {
 }
 
 // Returns the transform of a disk, Airy's amplitude 2 J1(x) / x. Its first zero is at 1.22 pixels: it passes the
-// frequencies in the largest circle that pixels represent. Its window is the first lobe of the same function, as wide
-// as the filter.
+// frequencies in the largest circle that pixels can represent. Its window is the first lobe of the same function,
+// stretched to the width of the filter.
 float airy(float r) { return r < 1e-3f ? 1.0f : 2 * std::cyl_bessel_jf(1, kPi * r) / (kPi * r); }
 float bessel(float x, float y, float xWidth, float yWidth) {
   const float u = 2 * x / xWidth, v = 2 * y / yWidth, edge = std::sqrt(u * u + v * v);

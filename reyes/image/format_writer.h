@@ -1,5 +1,5 @@
-// Private to reyes/image: one writer for each file format, some rows at a time. Each format's library is used in one
-// file.
+// Private to reyes/image: the interface of the writers of file formats, which take some rows at a time. Each format's
+// library is used in one source file.
 #pragma once
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Every member throws std::exception when the disk, or the format, does not take the picture.
+/// Every member throws std::exception if the disk or the format cannot take the picture.
 class FormatWriter {
  public:
   virtual ~FormatWriter() = default;
@@ -15,7 +15,7 @@ class FormatWriter {
   virtual void write(const Image& rows) = 0;
   virtual void write(const DeepRows& rows);
   virtual void close() = 0;
-  virtual std::vector<std::string> unread() const { return {}; }  ///< Serves PictureFile::unread().
+  virtual std::vector<std::string> unread() const { return {}; }  ///< See PictureFile::unread().
 };
 
 /// Returns the pixels of `rows` as bytes of `type`, from the first row to the last.

@@ -1,4 +1,4 @@
-// Private to reyes/image: the table of picture formats. Each format's row stands beside its writer.
+// Private to reyes/image: the table of picture formats. Each format's row is beside its writer.
 #pragma once
 #include <span>
 #include <string_view>
@@ -17,7 +17,7 @@ struct PictureFormat {
   Words types = {};           ///< Other types of Displays that ask for it.
   Words extensions = {};      ///< Extensions of file names, with the dot.
   Words compressions = {};    ///< Compressions that a Display may ask for.
-  Words params = {};          ///< Parameters of a Display that other formats have no use for; "x_*": all that begin so.
+  Words params = {};          ///< Parameters of a Display for this format alone; "x_*": all that begin with x_.
   bool floats = false;        ///< It can hold floating point numbers.
   bool quantises = false;     ///< It holds integers where Quantize asks for them, or always.
   bool dividesColor = false;  ///< Its colours have been divided by alpha.
@@ -32,7 +32,7 @@ struct PictureFormat {
   bool takes(std::string_view param) const;
 };
 
-/// The first format is used for names without an extension, and for data that only a format that carries names holds.
+/// The first format is used for names without an extension, and for data that only formats with carriesNames hold.
 std::span<const PictureFormat* const> pictureFormats();
 /// Returns the format of pictures for display drivers, which is not in the table.
 const PictureFormat& driverFormat();

@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes a text over one of the same length in all headers of an OpenEXR file. A header is written before the pixels,
-/// when nobody knows yet what they will be. An attribute is its name, its type, the number of its bytes, and these.
-/// Returns whether the file has it.
+/// Overwrites a text in all headers of an OpenEXR file by one of the same length, because a header is written before
+/// the pixels, when their statistics are not known yet. An attribute is its name, its type, the number of its bytes,
+/// and these bytes. Returns whether the file has it.
 bool overwrite(int file, const std::string& name, const std::string& old, const std::string& text) {
   constexpr size_t kMostHeaderBytes = 16 << 20;
   std::string head(kMostHeaderBytes, '\0');
@@ -96,7 +96,7 @@ struct PictureFile::Impl {
   }
 
   const std::string path;
-  std::string problem;                         // before `file`: opening that writes the problem here
+  std::string problem;                         // declared before `file`, whose opening sets it
   const std::unique_ptr<UnfinishedFile> file;  // null if a driver takes the picture
   const Image shape;
   const FileFormat format;

@@ -28,7 +28,7 @@ struct FileFormat {
   SampleType type = SampleType::Float;    ///< For integer types, pixels hold integers already, 0..255 or 0..65535.
   bool unassociatedAlpha = false;         ///< True if the colour has been divided by alpha.
   std::string compression = {};           ///< If empty, the format's best lossless one.
-  int tile = 0;                           ///< Side of a tile; 0 for scanlines.
+  int tile = 0;                           ///< Edge of a tile in pixels; 0 for scanlines.
   bool deep = false;                      ///< OpenEXR: a list of samples in every pixel.
   bool multipart = false;                 ///< OpenEXR: one part for each layer.
   std::vector<std::string> precise = {};  ///< Channels that stay float in a file of halves.
@@ -45,12 +45,12 @@ class PictureFile {
 
   PictureFile(const std::string& path, const Image& shape, const FileFormat& format);
   ~PictureFile();
-  /// Writes the next rows from the top; all calls but the last have a multiple of kBandRows. Returns false: error()
-  /// says why.
+  /// Write the next rows from the top. Pre: in all calls but the last their number is a multiple of kBandRows. Return
+  /// false on failure, and error() says why.
   bool write(const Image& rows);
   bool write(const DeepRows& rows);
-  /// A picture of which a share of less than 1 is finished gets the name of partialName(), and its header says so; a
-  /// whole one removes the file of that name.
+  /// Closes the picture, of which the share `finished` is done. If that is less than 1, the file gets the name of
+  /// partialName(), and its header says so; a whole picture removes a file of that name.
   bool close(float finished = 1);
   const std::string& error() const;
   /// Returns the parameters of a Display that its driver has not read.

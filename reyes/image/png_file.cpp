@@ -79,7 +79,7 @@ class PngFile : public FormatWriter {
   }
 
  private:
-  /// libpng returns by longjmp: nothing that `calls` makes may need a destructor.
+  /// libpng reports errors by longjmp, so no local of `calls` may need a destructor.
   template <class Calls>
   void guarded(const Calls& calls) {
     if (setjmp(png_jmpbuf(file_.png))) throw std::runtime_error("PNG: " + problem_);

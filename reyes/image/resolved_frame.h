@@ -1,4 +1,4 @@
-// Private to reyes/image: the contributions of a frame's pixels, tile by tile, as long as rows of pixels need them.
+// Private to reyes/image: the contributions of a frame's pixels, kept tile by tile as long as rows of pixels need them.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -9,7 +9,7 @@
 
 namespace tomales {
 
-/// Threads: tiles may be resolved at the same time, and read once they are.
+/// Threads: tiles may be resolved concurrently, and read once they are resolved.
 class ResolvedFrame {
  public:
   ResolvedFrame(const DeepFrame& frame, const FrameOutput& output, const Options& options);
@@ -18,11 +18,11 @@ class ResolvedFrame {
   const std::vector<ExtraFloat>& extras() const { return extras_; }
 
   void resolve(size_t index, const DeepTile& tile);
-  /// Resolves the tiles that rows [y0, y1) touch and that are not resolved yet, from the frame.
+  /// Resolves those tiles of the frame that rows [y0, y1) touch and that are not resolved yet.
   void resolveRows(int y0, int y1);
   /// Drops the tiles above a row.
   void forgetAbove(int y);
-  /// Tells whether all tiles from that of row y on are still in memory.
+  /// Tells whether all tiles from row y on are still in memory.
   bool reaches(int y) const { return firstTileOf(y) >= forgotten_; }
   /// Returns the noise of all tiles that have been resolved. It is zero where so few pixels have light that most are
   /// edges.
@@ -31,7 +31,7 @@ class ResolvedFrame {
   /// The contributions of a pixel.
   struct Seen {
     std::span<const Contribution> list;
-    const float* values;  ///< width() each; ResolvedTile::kMargin more may be read.
+    const float* values;  ///< width() floats for each; ResolvedTile::kMargin more may be read.
   };
   Seen seenAt(int x, int y) const { return runFrom(x, y).at(0, width_); }
   /// Calls visit(x, seen) for the pixels [x0, x1) of a row.
@@ -64,7 +64,7 @@ class ResolvedFrame {
     PixelNoise sums;
     int lit = 0;  ///< Number of pixels with light.
   };
-  /// `width`: floats of a contribution; `samples`: those of a pixel.
+  /// `width`: floats of a contribution; `samples`: samples of a pixel.
   static TileNoise noiseOf(const ResolvedTile& tile, int width, int samples);
 
   const DeepFrame& frame_;

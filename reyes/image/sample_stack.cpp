@@ -85,8 +85,8 @@ void composite(const ShadedLayer& l, const LayerExtras& more, SampleStack& stack
     if (coveredFrom(l, first, covered)) compositeAt(l, more, covered, stack, first);
 }
 
-/// Does the same arithmetic in the same order, one vector of samples after the other: nothing is stored before the last
-/// fragment.
+/// Does the same arithmetic in the same order, but one vector of samples after the other, so that nothing is stored
+/// before the last fragment.
 void compositeAll(std::span<const ShadedLayer> shadedLayers, SampleStack& stack) {
   for (size_t first = 0; first < stack.lanes; first += hn::Lanes(kF)) {
     Clear clear{all(1.0f), all(1.0f), all(1.0f)};

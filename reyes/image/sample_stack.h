@@ -44,9 +44,9 @@ struct SampleStack {
   AlignedVector<float> clear[3];  ///< Share of light that passes all layers so far.
   AlignedVector<float> nearest;   ///< Depth of the nearest layer.
   AlignedVector<float> values;    ///< An array of lanes for each float of a contribution.
-  AlignedVector<float> air[4];    ///< R G B A of the air beside the last layer, before it; empty where no tile has any.
+  AlignedVector<float> air[4];    ///< R G B A of the last layer's air, dimmed by layers in front; empty without air.
   size_t lanes = 0;
-  vec3 hidden;  ///< A sample that lets no more light through than this sees nothing of further layers.
+  vec3 hidden;  ///< Further layers are hidden at a sample that lets no more light through than this.
 
   /// Prepares for compositeAll(), which fills it. samples: a multiple of kLanes.
   void resize(size_t samples, size_t floats);
@@ -54,9 +54,9 @@ struct SampleStack {
   void reset(size_t samples, size_t floats, bool withAir);
   /// Composites a layer by "over", with an opacity for each channel.
   void composite(const ShadedLayer& l, const LayerExtras& more);
-  /// Composites all layers of a pixel at once, where no other values are needed. Does not set `values` and `nearest`.
+  /// Composites all layers of a pixel at once, if no other values are needed. It does not set `values` and `nearest`.
   void compositeAll(std::span<const ShadedLayer> shadedLayers);
-  /// Call it after the last layer: no other surface follows that holds this air.
+  /// Adds `air` to `values`. Call it after the last layer, whose air includes the air of all layers in front.
   void addAir();
 };
 

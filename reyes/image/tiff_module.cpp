@@ -89,8 +89,8 @@ class TiffFile : public FormatWriter {
     TIFFSetField(file_, TIFFTAG_ROWSPERSTRIP, PictureFile::kBandRows);
   }
 
-  /// TIFF positions are in units whose resolution says how many pixels they are: one pixel across, and the same length
-  /// down. TIFF has no negative positions.
+  /// Positions in TIFF are in units of the resolution, which is set so that a unit is one pixel's width. TIFF has no
+  /// negative positions.
   void setWindow(const Image& shape) {
     TIFFSetField(file_, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
     TIFFSetField(file_, TIFFTAG_XRESOLUTION, 1.0f);

@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// Serves PictureFormat::open.
+/// See PictureFormat::open.
 using OpenTiff = std::unique_ptr<FormatWriter>(const std::string& path, const Image& shape, const FileFormat& format);
 
 }  // namespace tomales

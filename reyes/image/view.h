@@ -1,4 +1,4 @@
-// Private to image: what files tell of the camera.
+// Private to reyes/image: metadata of files about the camera.
 #pragma once
 #include <vector>
 
@@ -8,8 +8,8 @@
 namespace tomales {
 
 Metadata matrixEntry(const char* name, const mat4& m);
-/// Attributes of OpenEXR's standard (ImfStandardAttributes.h): world to NDC gives (0, 0) at the top left of the display
-/// window and (1, 1) at the bottom right.
+/// Returns standard attributes of OpenEXR (ImfStandardAttributes.h): world to NDC gives (0, 0) at the top left of the
+/// display window and (1, 1) at the bottom right.
 std::vector<Metadata> cameraOf(const View& view);
 
 }  // namespace tomales

@@ -34,7 +34,7 @@ static_assert(kLanes % (2 * kHalf) == 0);
   }
 }
 
-/// Pixels that a pixel's samples reach, by rows. places: indices of their weights in a row of the table.
+/// The pixels that a pixel's samples reach, by rows. places: indices of their weights in a row of the table.
 struct Reached {
   float* to;
   ptrdiff_t rowStep;
@@ -68,7 +68,7 @@ template <int kRows, int kColumns>
     addTo<kRows, kColumns, PixelSums::kWide>(to + k, r, seen, weight, seen.values + k);
 }
 
-/// `rows`: the weights of the pattern's samples. `weights` gets those of the contributions.
+/// `rows`: the weights of the pattern's samples. `weights` is set to the weights of the contributions.
 TOMALES_HOT void addAround(const Reached& r, const SeenFloats& seen, const float* rows, float* weights) {
   const auto stride = static_cast<size_t>(r.stride);
   float* sums = weights;

@@ -34,12 +34,12 @@ class WeightTable {
         }
   }
 
-  /// A pattern, relative to one of the pixels that it reaches.
+  /// A sample pattern, relative to one of the pixels that it reaches.
   struct Cell {
     int pattern, place;
   };
   const int reachX, reachY;
-  /// (dx, dy) leads from the pixel that is being filtered to the one that has the pattern.
+  /// (dx, dy) leads from the pixel that is filtered to the pixel with the pattern.
   Cell cell(int pattern, int dx, int dy) const { return {pattern, (reachY - dy) * (2 * reachX + 1) + reachX - dx}; }
   float sum(const Cell& cell) const { return sums(cell.pattern)[cell.place]; }
   float sum(const Cell& cell, uint64_t mask, uint16_t word) const {
@@ -69,15 +69,15 @@ struct SeenFloats {
   size_t step;
 };
 
-/// Weighted sums of floats for the pixels of a block, to which pixels in and around the block add their samples.
+/// Weighted sums of floats for the pixels of a block. Pixels in and around the block add their samples to them.
 class PixelSums {
  public:
   static constexpr int kWide = 4;  ///< Floats of a pixel are padded to a multiple of this.
   static_assert(kWide <= ResolvedTile::kMargin);
   PixelSums(const WeightTable& weights, const PixelRect& block, int floats);
   int width() const { return width_; }
-  /// Adds all contributions of pixel (x, y), whose samples have this pattern: width() floats each; floats beyond those
-  /// asked for may have any value.
+  /// Adds all contributions of pixel (x, y), whose samples have this pattern. Each has width() floats, of which those
+  /// beyond `floats` of the constructor may have any value.
   void add(int x, int y, int pattern, const SeenFloats& seen);
   const float* of(int x, int y) const { return sums_.data() + indexOf(x, y) * width_; }
 

@@ -43,8 +43,8 @@ std::optional<Bytes> bytesOf(const std::string& file) {
   return in ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// Files of the cache end in a sum of their contents, which readers of TIFF ignore. Without it, a file that was cut off
-/// or has rotted would be noticed when its texels are wanted, in the middle of a frame, or never.
+/// Files of the cache end in a checksum of their contents, which readers of TIFF ignore. Without it, a truncated or
+/// corrupt file would be noticed only when its texels are needed, in the middle of a frame, or never.
 bool seal(const std::string& file) {
   const auto bytes = bytesOf(file);
   if (!bytes) return false;
@@ -65,8 +65,8 @@ bool isSealed(const std::string& file) {
          s.sum == checksum(BytesView(*bytes).first(bytes->size() - sizeof s));
 }
 
-/// Reads every texel here, so that a truncated picture is found before anything is made of it. It uses an ImageInput,
-/// since an ImageBuf takes strips of TIFF that are cut off for read: OpenImageIO returns true and leaves a message.
+/// Reads every texel, so that a truncated picture is found before anything is made from it. It uses an ImageInput,
+/// because an ImageBuf accepts truncated strips of TIFF: OpenImageIO returns true and leaves a message.
 bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& error) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) {
@@ -87,8 +87,8 @@ bool readTexels(const std::string& file, OIIO::ImageBuf& picture, std::string& e
   return error.empty();
 }
 
-/// Copies a tiled TIFF with its levels. Where tiles reach beyond the picture OpenImageIO leaves what was in memory, so
-/// that the same picture would make other bytes each time: the copy has zeros there.
+/// Copies a tiled TIFF with its levels. Where tiles reach beyond the picture, OpenImageIO writes uninitialised memory,
+/// so the same picture would give different bytes each time. The copy has zeros there.
 bool copyWithBlackEdges(const std::string& from, const std::string& to, std::string& error) {
   const auto in = OIIO::ImageInput::open(from);
   const auto out = OIIO::ImageOutput::create("tiff");
@@ -119,18 +119,18 @@ bool copyWithBlackEdges(const std::string& from, const std::string& to, std::str
   return out->close() || failed(out->geterror());
 }
 
-/// `scratch`: a folder of the same file system. What a killed process has left there is removed.
+/// `scratch`: a folder on the same file system. Files that a killed process has left there are removed.
 bool write(const OIIO::ImageBuf& picture, const TextureRecipe& recipe, const std::string& file, const fs::path& scratch,
            bool sealed, std::string& error) {
   OIIO::ImageSpec config;
   const bool exr = fs::path(file).extension() == ".exr";
   config.attribute("maketx:fileformatname", exr ? "openexr" : "tiff");
   config.attribute("maketx:filtername", recipe.filter);
-  config.attribute("DateTime", "1970:01:01 00:00:00");  // a date of now would make no two conversions alike
+  config.attribute("DateTime", "1970:01:01 00:00:00");  // the present date would make every conversion different
   config.attribute("wrapmodes", recipe.sWrap + "," + recipe.tWrap);
   try {
-    // It is a folder, because OpenImageIO makes another file beside the one that it is asked for, which a killed
-    // process would leave.
+    // It is a folder, because OpenImageIO makes a further file beside the requested one, which a killed process would
+    // leave behind.
     const TemporaryFolder folder(scratch);
     const fs::path first = folder.path() / "first", made = exr ? first : folder.path() / "texture";
     if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture, first.string(), config))
@@ -205,7 +205,7 @@ std::string tiledFile(const std::string& picture, const std::string& folder, std
   OIIO::ImageBuf whole;
   if (!readWhole(picture, whole, error)) return {};
   TextureRecipe recipe;
-  // Beyond its edges a picture is black, as the tools of other renderers have it, unless its file says otherwise.
+  // Beyond its edges a picture is black, as with the tools of other renderers, unless its file says otherwise.
   const std::string wraps = whole.spec().get_string_attribute("wrapmodes");
   if (const size_t comma = wraps.find(','); comma != std::string::npos) {
     recipe.sWrap = wraps.substr(0, comma);

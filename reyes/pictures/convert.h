@@ -1,4 +1,4 @@
-// Private to the module: converts pictures to tiled MIP files, and finds those of the cache.
+// Private to the module: converts pictures to tiled MIP files, and finds those in the cache.
 #pragma once
 #include <OpenImageIO/imagebuf.h>
 
@@ -17,8 +17,8 @@ bool readWhole(const std::string& file, OIIO::ImageBuf& picture, std::string& er
 /// Makes one latitude-longitude picture of six faces, fine enough to resolve them everywhere.
 std::optional<OIIO::ImageBuf> unfoldCube(const TextureRecipe& recipe, std::string& error);
 
-/// Returns the tiled MIP file that stands for a picture: itself, or its conversion in `folder`, made now if need be.
-/// Empty if it is unreadable. `note` tells what had to be made anew because it was damaged.
+/// Returns the tiled MIP file of a picture: the picture itself, or its conversion in `folder`, which is made now if
+/// need be. Returns an empty name if it is unreadable. `note` names a damaged conversion that was made again.
 std::string tiledFile(const std::string& picture, const std::string& folder, std::string& error, std::string& note);
 
 }  // namespace tomales

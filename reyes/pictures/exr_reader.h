@@ -1,4 +1,5 @@
-// Private to reyes/pictures: OpenEXR files without OpenImageIO's libraries, since frames read their shadow maps again.
+// Private to reyes/pictures: reads OpenEXR files without OpenImageIO's libraries, for frames that read their shadow
+// maps again.
 #pragma once
 #include "reyes/pictures.h"
 

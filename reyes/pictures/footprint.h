@@ -10,9 +10,9 @@ struct Footprint {
   double su, tu, sv, tv;
 };
 
-/// OpenImageIO aborts where a filter with blur is flat, as in texture("a", s, s, "blur", 0.1), or very long. Such a one
-/// keeps its longer edge and gets a short one across it. The result is the same, because OpenImageIO has no filter that
-/// is flatter than 1 to 32, and long ones see the mean of the picture. Pre: the edges are finite.
+/// OpenImageIO aborts where a filter with blur is flat, as in texture("a", s, s, "blur", 0.1), or very long. Such a
+/// footprint keeps its longer edge and gets a short one across it. The result is the same, because OpenImageIO has no
+/// filter flatter than 1 to 32, and long filters return the mean of the picture. Pre: the edges are finite.
 inline Footprint soundFootprint(const Footprint& f) {
   constexpr double kLongest = 1e3, kFlattest = 1e-2, kShortest = 1e-7;
   const double u = std::hypot(f.su, f.tu), v = std::hypot(f.sv, f.tv), longer = std::max(u, v);

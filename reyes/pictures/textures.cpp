@@ -54,12 +54,12 @@ struct Picture {
   std::map<int, OpenFile> tiles;  ///< Indexed by UDIM number; 0 if there is only one.
   bool tiled = false;
   std::string error;   ///< Says why there is none.
-  std::string remark;  ///< Says what was taken in place of a file, and why.
+  std::string remark;  ///< Says what was used instead of a file, and why.
 };
 
-/// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system for longer
-/// than it lives, under its address, and OpenImageIO 2.4 hands them to the next system at that address. (It keeps them
-/// in a boost::thread_specific_ptr, which frees those of the thread that destroys it, and of no other.)
+/// OpenImageIO's texture system, one for the process and never destroyed. Threads keep tiles of a system beyond its
+/// life, under its address, and OpenImageIO 2.4 gives them to the next system at that address. (It keeps them in a
+/// boost::thread_specific_ptr, whose destruction frees only the tiles of the calling thread.)
 class SharedSystem {
  public:
   OIIO::TextureSystem* const textures = OIIO::TextureSystem::create(false);
@@ -140,7 +140,7 @@ class Cache : public TextureCache {
       const std::shared_lock lock(mutex);
       if (const auto it = pictures.find(name); it != pictures.end()) return *it->second;
     }
-    // One conversion runs at a time: others who want this picture wait for it, and there are few.
+    // One conversion runs at a time, because those who wait mostly want the same picture, and conversions are few.
     const std::unique_lock lock(mutex);
     auto& slot = pictures[std::string(name)];
     if (!slot) slot = open(std::string(name));
@@ -182,7 +182,7 @@ class Cache : public TextureCache {
       }
       if (problem.empty()) problem = error;
     }
-    if (!named.empty()) picture.error = problem;  // else it is not found, whatever else lies there
+    if (!named.empty()) picture.error = problem;  // otherwise the picture counts as not found
   }
 
   /// Opens a file. If there is no handle, `error` says why.

@@ -106,7 +106,8 @@ ToBezier bezierFrom(const Basis& basis) {
     for (int j = 0; j < 4; ++j) {
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += kBezierFromPower[i][k] * static_cast<double>(basis.matrix[k][j]);
-      // The named bases are twelfths. With exactly equal weights two patches agree exactly on the edge that they share.
+      // The weights of named bases are twelfths. With exactly equal weights, two patches agree exactly on their common
+      // edge.
       const double twelfths = std::round(12 * sum);
       out[static_cast<size_t>(i)][static_cast<size_t>(j)] =
           static_cast<float>(std::abs(12 * sum - twelfths) < 1e-5 ? twelfths / 12 : sum);

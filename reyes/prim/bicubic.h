@@ -11,7 +11,7 @@ using BezierNet = std::array<float, 16>;
 /// The coordinates x, y, z.
 using BezierPatch = std::array<BezierNet, 3>;
 
-/// Row i has the weights of four control values in Bezier control value i.
+/// Row i has the weights of the four control values in Bezier control value i.
 using ToBezier = std::array<std::array<float, 4>, 4>;
 ToBezier bezierFrom(const Basis& basis);
 
@@ -20,7 +20,7 @@ BezierNet convertNet(const BezierNet& control, const ToBezier& u, const ToBezier
 void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p);
 void evaluateNet(const BezierNet& net, int n, const float* u, const float* v, float* p, float* du, float* dv);
 
-/// Computes positions, derivatives and normals; the latter are limits where an edge is a point.
+/// Computes positions, derivatives and normals. Where an edge is a point, normals are limits.
 void evaluateBicubic(const BezierPatch& patch, int n, const float* u, const float* v, SurfacePoints out);
 
 /// Returns the bound of the control points of the piece over the rectangle, which contains the piece.

@@ -22,11 +22,11 @@ struct SurfacePoint {
   dvec3 p, du, dv, normal;
 };
 
-/// The fate of a point whose way does not meet the surface.
+/// What happens to a point whose path does not meet the surface.
 enum class Lost {
   Stays,  ///< It stays on the mesh, which belongs to this surface and so lies near it.
-  /// It goes to the end of its way, since the mesh belongs to another key time. Points that meet the surface lie within
-  /// the same reach, so that the shape does not jump where points begin to be lost.
+  /// It goes to the end of its path, since the mesh belongs to another key time. Points that meet the surface lie
+  /// within the same reach, so the shape does not jump where points begin to miss it.
   GoesOn,
 };
 
@@ -109,7 +109,8 @@ class Blobby : public Prim {
   }
 
   Way wayAt(uint32_t patch, double u, double v) const {
-    // The sum of each edge's two products, in any order of its ends, is the same for both patches at it.
+    // On an edge only two products are not zero. Their sum does not depend on their order, so it is the same for both
+    // patches.
     const auto blend = [&](const auto& of) {
       return (of(0) * (1 - u) + of(1) * u) * (1 - v) + (of(2) * (1 - u) + of(3) * u) * v;
     };

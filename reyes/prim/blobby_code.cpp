@@ -63,7 +63,7 @@ class CodeReader {
     return code_[at_++];
   }
 
-  /// Returns `count` floats, from the index that the next code gives.
+  /// Returns `count` floats from the index that the next code gives.
   const float* take(size_t count) {
     const int first = next();
     if (first < 0 || static_cast<size_t>(first) + count > floats_.size())
@@ -122,7 +122,7 @@ class CodeReader {
     return leaf;
   }
 
-  /// Reads a plugin leaf: its name, then a count and a first number for its floats, and the same for its strings.
+  /// Reads a plugin leaf: its name, then a count and a first index for its floats, and the same for its strings.
   std::optional<BlobLeaf> plugin() {
     problems_.push_back(
         fmt::format("leaf {} is code from a plugin, for which there is no interface; it counts as 0", leaves_.size()));

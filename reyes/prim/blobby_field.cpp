@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-/// Parameter of the segment's point nearest to q: 0 at its beginning, 1 at its end.
+/// Returns the parameter of the segment's point nearest to q: 0 at its beginning, 1 at its end.
 double placeOnSegment(const BlobLeaf& leaf, const dvec3& q) {
   const dvec3 along = leaf.to - leaf.from;
   const double length2 = glm::dot(along, along);
@@ -144,8 +144,8 @@ std::vector<FieldRange> BlobField::rangesOver(const Box& box) const {
   return ranges;
 }
 
-/// Returns the operands without terms that are 0 and without those that lose to another all over the box: at() returns
-/// the same bits.
+/// Returns the operands without terms that are 0 and without those that another one exceeds all over the box. at()
+/// still returns the same bits.
 std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std::vector<FieldRange>& ranges) const {
   const std::span<const uint32_t> all = operandsOf(i);
   std::vector<uint32_t> needed;
@@ -159,7 +159,7 @@ std::vector<uint32_t> BlobField::neededOperands(const Instruction& i, const std:
   return needed;
 }
 
-// Goes from the last instruction to the first, as chains of operations may be longer than a stack is deep.
+// Goes from the last instruction to the first without recursion, because chains of operations could exhaust the stack.
 BlobField BlobField::within(const Box& box) const {
   const std::vector<FieldRange> ranges = rangesOver(box);
   const auto isConstant = [&](size_t index) { return ranges[index].lo == ranges[index].hi; };

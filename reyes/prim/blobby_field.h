@@ -1,5 +1,5 @@
-// Private to Blobby: the function whose level set a Blobby is: leaves that fall off with distance, combined by
-// arithmetic. Space: the object's. Everything is in double precision, so that a zero along a line is exact to a float's
+// Private to Blobby: the function whose level set is the Blobby. It combines leaves, which fall off with distance, by
+// arithmetic. Space: object space. Everything is in double precision, so that a root along a line is exact to a float's
 // last bit.
 #pragma once
 #include <memory>
@@ -22,9 +22,9 @@ struct Box {
 
 class BlobGround;
 
-/// A leaf's value is (1 - d^2)^3 for d < 1, else 0. d is the distance over `radius` from a segment, or from a point if
-/// its ends are equal, in the leaf's own space. A leaf may be a ground instead (blobby_ground.h), which has no values
-/// to blend and moves nothing.
+/// A leaf's value is (1 - d^2)^3 for d < 1, and 0 beyond. In leaf space, d is the distance from a segment (a point if
+/// its ends are equal) divided by `radius`. A leaf may be a ground instead (blobby_ground.h), which has no values to
+/// blend and moves nothing.
 struct BlobLeaf {
   glm::dmat3 axes;  ///< Transforms from object space to leaf space, with `origin`.
   dvec3 origin;
@@ -57,29 +57,29 @@ class BlobField {
   void addLeaf(uint32_t leaf) { code_.push_back({BlobOp::Leaf, leaf, 0, 0}); }
   void addOperation(BlobOp op, std::span<const uint32_t> operands);
 
-  /// Returns the number of leaves that it still has after within().
+  /// Returns the number of leaves that the program uses, which within() may have reduced.
   size_t leavesUsed() const;
   size_t leafCount() const { return leaves_->size(); }
   FieldPoint at(const dvec3& p) const;
   FieldRange over(const Box& box) const { return rangesOver(box).back(); }
 
-  /// Returns the same function inside of the box, without instructions that are not needed there.
+  /// Returns a program with the same values inside of the box, without the instructions that are not needed there.
   BlobField within(const Box& box) const;
 
   /// Returns the value of each leaf at p, or 0 if the field does not depend on the leaf there.
   std::vector<double> leafWeights(const dvec3& p) const;
 
-  /// Returns the position of p if the leaves change to those of `other`, which has as many: p moves by the mean of
-  /// their motions, weighted by leafWeights().
+  /// Returns where p moves if the leaves become those of `other`: by the mean of their motions, weighted by
+  /// leafWeights(). Pre: `other` has the same number of leaves.
   dvec3 carried(const dvec3& p, const BlobField& other) const;
 
-  /// Returns the least feature() of the leaves that it uses; infinite if it uses none.
+  /// Returns the least feature() of the leaves that the program uses; infinite if it uses none.
   double feature() const;
 
  private:
   struct Instruction {
     BlobOp op;
-    uint32_t first, count;  ///< Range in operands_; for a leaf `first` is its number.
+    uint32_t first, count;  ///< Range in operands_; for a leaf `first` is the leaf's index.
     double constant;
   };
 

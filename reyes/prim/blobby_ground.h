@@ -1,4 +1,4 @@
-// Private to Blobby: the ground that repels a Blobby (leaf 1003): heights over a depth picture, and the repelling
+// Private to Blobby: the ground that repels a Blobby (leaf 1003): heights above a depth picture, and the repelling
 // field.
 #pragma once
 #include "reyes/prim.h"
@@ -6,9 +6,10 @@
 
 namespace tomales {
 
-/// The field of PRMan's application note 31. z is how much nearer to the picture's camera a point is than the ground:
-/// (bulge b(z / bulgeHeight) - sharpness / z) (1 - e(z / height)) below `height`, 0 above and where the picture shows
-/// nothing. b rises from 0 to 1 at 1 and falls to 0 at 2; e eases from 0 to 1.
+/// The field of PRMan's application note 31. Let z be the distance by which a point is nearer to the picture's camera
+/// than the ground. The field is (bulge b(z / bulgeHeight) - sharpness / z) (1 - e(z / height)) for z below `height`,
+/// and 0 above it and where the picture shows nothing. b rises from 0 to 1 at 1 and falls to 0 at 2; e eases from 0 to
+/// 1.
 struct Repulsion {
   double height, sharpness, bulgeHeight, bulge;  ///< A, B, C, D of the note.
   FieldPoint at(double z) const;                 ///< `gradient.x`: d/dz.
@@ -24,7 +25,7 @@ class BlobGround {
   double feature() const;
 
  private:
-  /// Range of depths of blocks of texels; each level's blocks are twice as wide.
+  /// Range of depths in each block of texels. The blocks of a level are twice as wide as those of the level before.
   struct Level {
     int columns, rows;
     std::vector<float> least, greatest;

@@ -10,8 +10,8 @@ constexpr int kExtraLevels = 3;        ///< Further halvings of cells with more 
 constexpr double kCellsOfFeature = 3;  ///< A single leaf has this many cells across.
 constexpr double kLeastCosine = 0.5;   ///< Least cosine between the normals of a cell and their mean.
 constexpr double kRounding = 1e-9;     ///< Rounding error of sums of leaves' values.
-/// Limits of cells. More cells mean that a leaf is elongated, or far smaller than another; then all cells are larger by
-/// a factor between these two.
+/// Limits on the number of cells. More would be needed if a leaf is elongated, or far smaller than another; then all
+/// cells are larger by a factor between kLeastCoarsening and kMostCoarsening.
 constexpr size_t kMostCells = 1 << 18, kMostCellsOfLeaf = 1 << 10;
 constexpr double kLeastCoarsening = 4, kMostCoarsening = 64;
 
@@ -71,8 +71,8 @@ class Contourer {
     refine(0, field);
   }
 
-  /// Returns the least factor on the cells for the surface to fit, estimated from the share of the box that was done
-  /// when there were too many: a surface has a quarter of the cells when they are twice as large.
+  /// Returns the least factor on the size of cells at which the surface fits into the limits. It is estimated from the
+  /// share of the box that was finished when the limit was reached: cells twice as large are a quarter as many.
   double wantedCoarsening() const {
     return std::clamp(std::sqrt(std::pow(unit_ * cells_[0].size, 3) / std::max(done_, 1e-300)), kLeastCoarsening,
                       kMostCoarsening);
@@ -132,8 +132,8 @@ class Contourer {
     for (uint32_t k = 0; k < 8; ++k) refine(first + k, field);
   }
 
-  /// Tells whether an edge leaves the inside and comes back, or the reverse. Then leaves nearly touch. Both cells at an
-  /// edge get the same answer.
+  /// Tells whether the surface crosses an edge twice, which happens where leaves nearly touch. All cells at an edge get
+  /// the same answer.
   bool hidesGap(const Cell& cell, const BlobField& field) const {
     constexpr int kStretches = 4;
     if (field.leavesUsed() < 2) return false;
@@ -150,7 +150,7 @@ class Contourer {
     return false;
   }
 
-  /// Approximate points where the surface meets the cell's edges.
+  /// Returns approximate points where the surface meets the cell's edges.
   std::vector<dvec3> crossingsOf(const Cell& cell, const BlobField& field) const {
     std::vector<dvec3> out;
     for (uint32_t a = 0; a < 8; ++a)

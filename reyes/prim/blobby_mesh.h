@@ -1,4 +1,4 @@
-// Private to Blobby: a coarse mesh around the level set of a field, and the search of the surface from it.
+// Private to Blobby: a coarse mesh around the level set of a field, and the search for the surface from that mesh.
 #pragma once
 #include <array>
 #include <optional>
@@ -7,9 +7,8 @@
 
 namespace tomales {
 
-/// A vertex on the surface, or near it. From a point of a quadrilateral the surface is searched along the blend of its
-/// corners' directions, no farther than the blend of their reaches, so two quadrilaterals agree on the points that they
-/// share.
+/// A vertex on the surface, or near it. From a point of a quadrilateral, the surface is searched along the blend of its
+/// corners' directions, up to the blend of their reaches. So two quadrilaterals agree on their common points.
 struct BlobVertex {
   vec3 position, outward;
   float reach;
@@ -28,15 +27,15 @@ struct BlobMesh {
 };
 
 /// Dual contouring (Ju et al. 2002) of an octree that is as fine as the field's features, and finer where a cell meets
-/// more than one surface or a crease. The mesh is closed. Details smaller than a third of the least leaf there may be
-/// missed.
+/// more than one surface or a crease. The mesh is closed. Details smaller than a third of the smallest leaf there may
+/// be missed.
 BlobMesh contour(const BlobField& field, const Box& box);
 
-/// Returns the same quadrilaterals around `moved`, whose leaves are those of `field` moved.
+/// Returns the same quadrilaterals around `moved`, which is `field` with its leaves moved.
 BlobMesh carriedMesh(const BlobMesh& mesh, const BlobField& field, const BlobField& moved);
 
-/// Returns the t where p + t * outward meets the surface, at most `reach` away from p on the side on which the field
-/// says that the surface lies. It looks in four steps, and misses what a step crosses twice; empty if it finds none.
+/// Returns the t where p + t * outward meets the surface, or nothing if it finds none. It searches up to `reach` from
+/// p, on the side that the field at p tells, in four steps, and misses a surface that one step crosses twice.
 std::optional<double> meetSurface(const BlobField& field, const dvec3& p, const dvec3& outward, double reach);
 
 }  // namespace tomales

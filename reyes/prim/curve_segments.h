@@ -28,9 +28,9 @@ T curvatureAt(const Cubic<T>& c, float t) {
 Cubic<vec4> piece(const Cubic<vec4>& c, float t0, float t1);
 
 struct CurveSegment {
-  uint32_t curve, number, of;        ///< Number of the segment in its curve, which has `of` segments.
-  std::array<uint32_t, 2> corners;   ///< Numbers of its varying values.
-  std::array<uint32_t, 4> controls;  ///< Numbers of its vertices; a line has two.
+  uint32_t curve, number, of;        ///< The curve's index, and the segment's index among the curve's `of` segments.
+  std::array<uint32_t, 2> corners;   ///< Indices of its varying values.
+  std::array<uint32_t, 4> controls;  ///< Indices of its vertices; a line has two.
   bool first, last;                  ///< It is at a loose end.
 };
 
@@ -46,17 +46,17 @@ class CurveSegments {
 
   /// Returns position and width.
   const Cubic<vec4>& line(size_t k) const { return lines_[k]; }
-  /// Direction along a segment, not normalised, and its derivative by v; never zero for a segment with a length. At a
-  /// vertex of a polyline it is the mean of two directions, so that neighbours meet.
+  /// Sets the direction along a segment, not normalised, and its derivative by v. The direction is never zero for a
+  /// segment with a length. At a vertex of a polyline it is the mean of two directions, so that neighbours meet.
   void direction(size_t k, float v, vec3& along, vec3& slope) const;
   bool cubic() const { return cubic_; }
-  /// Returns the segment before or after it in its curve. Pre: there is one.
+  /// Returns the segment before or after segment k in its curve. Pre: there is one.
   size_t neighbour(size_t k, bool after) const {
     const CurveSegment& s = segments_[k];
     return k - s.number + (s.number + (after ? 1 : s.of - 1)) % s.of;
   }
-  /// Returns the unit direction of a polyline's segment (0 if it has no length). mitres() are the means with the
-  /// directions of its neighbours, at its two ends.
+  /// Returns the unit direction of a polyline's segment (0 if it has no length). mitres() returns the mean directions
+  /// with its neighbours, at its two ends.
   vec3 chord(size_t k) const;
   const std::array<vec3, 2>& mitres(size_t k) const { return mitres_[k]; }
   /// Returns a primvar's first three components along each segment.

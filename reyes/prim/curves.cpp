@@ -19,8 +19,8 @@ struct Vectors {
   }
 };
 
-/// Cross sections of a ribbon: the unit vector `side`, and `up`, to which it faces; slopes are derivatives by v. The
-/// memory is kept by the thread.
+/// Cross sections of a ribbon: the unit vector `side`, and `up`, to which it faces; slopes are derivatives by v. Each
+/// thread keeps the memory.
 class Sections {
  public:
   explicit Sections(int count) : stride_(static_cast<size_t>(padded(count))) {
@@ -204,8 +204,8 @@ class Ribbons : public Prim {
     }
   }
 
-  /// The mitre where two segments of a polyline meet, in parts across the segment and along it. It lies on the bisector
-  /// of their sides and is so long that both segments keep their width there, but no longer than 3.
+  /// The mitre where two segments of a polyline meet, as components across the segment and along it. It lies on the
+  /// bisector of their sides, and is as long as both segments need to keep their width, up to 3.
   struct Mitre {
     float across = 1, along = 0;
     float length() const { return std::hypot(across, along); }

@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-// The sum takes half a sine for each side of the polygon.
+// Each side of the polygon contributes half the sine of its angle.
 double latticeDiskArea(int nu, int nv) {
   const auto quarter = [](int n) {
     double area = 0, last = -M_PI / 4;

@@ -1,4 +1,4 @@
-// Private to the primitives: disks as lattices.
+// Private to the primitives: maps the unit square to disks, so that grids can cover them.
 #pragma once
 #include "reyes/prim.h"
 
@@ -15,7 +15,7 @@ double latticeDiskArea(int nu, int nv);
 /// Evaluates the disk over the unit square, without a seam; derivatives are parallel only at the four corners.
 void evaluateDisk(const Disk& disk, int n, const float* u, const float* v, const SurfacePoints& out);
 
-/// Does the same at the four corners, moved away from the centre by `more` of their distance.
+/// Does the same at the four corners, after moving them away from the centre by the share `more` of their distance.
 void evaluateDot(const Disk& disk, float more, const SurfacePoints& out);
 
 }  // namespace tomales

@@ -49,7 +49,7 @@ class PointGrid {
 
   void remove(int i) { std::erase(cellOf(p_[static_cast<size_t>(i)]), i); }
 
-  /// Tells whether any point, given by its number, satisfies a condition that only points in the box can satisfy.
+  /// Tells whether any point, given by its index, satisfies a condition that only points in the box can satisfy.
   template <class Condition>
   bool any(const Point2& lo, const Point2& hi, const Condition& condition) const {
     for (int row = index(lo, 1); row <= index(hi, 1); ++row)
@@ -71,7 +71,7 @@ class PointGrid {
   std::vector<std::vector<int>> cells_;
 };
 
-/// Cuts off corners that are ears at all keys; where there is none, ears of the first key.
+/// Cuts off corners that are ears at all keys; if there are none, ears of the first key.
 class EarClipper {
  public:
   /// The search for ears begins at position `start`.

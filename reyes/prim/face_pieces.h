@@ -7,15 +7,16 @@
 
 namespace tomales {
 
-/// Vector of twice the polygon's area, to the side from which the vertices run counter-clockwise in a right-handed
-/// space (M. Newell).
+/// Returns a normal as long as twice the polygon's area, on the side from which the vertices run counter-clockwise in a
+/// right-handed space (M. Newell).
 glm::dvec3 newellNormal(const std::vector<vec3>& points);
 
-/// Returns the same for one triangle: the first point, the point farthest from it, and the point farthest from the line
-/// through these two. It gives a plane to a bow tie, whose halves cancel each other in newellNormal().
+/// Returns the normal of one triangle of points: the first one, the one farthest from it, and the one farthest from the
+/// line through these two. It gives a bow tie a plane; in newellNormal() its halves cancel each other.
 glm::dvec3 normalOfWidestTriangle(const std::vector<vec3>& points);
 
-/// A convex part of a polygon, as positions in its list of points; edges that are not the polygon's own are diagonals.
+/// A convex part of a polygon, as indices into its list of points. Edges that are not edges of the polygon are
+/// diagonals.
 using Piece = std::vector<int>;
 
 struct Pieces {
@@ -24,8 +25,8 @@ struct Pieces {
 };
 
 /// Returns convex parts that cover the polygon: itself, or triangles by ear clipping (Meisters 1975; for a polygon that
-/// moves, corners that are ears at all keys). It never fails: where the polygon crosses itself the triangles overlap,
-/// and also at later keys of a polygon that cannot be cut alike at all keys.
+/// moves, corners that are ears at all keys). It never fails. The triangles overlap where the polygon crosses itself,
+/// and at later keys if one cut does not suit all keys.
 Pieces convexPieces(const Outlines& keys);
 
 /// Tells whether every corner turns, and turns the same way, at all keys.

@@ -11,7 +11,8 @@ struct Eye {
   vec3 towards(const vec3& from) const { return perspective ? position - from : -forward; }
 };
 
-/// "width" or else "constantwidth" of the primvars, or a constant 1. Throws PrimError if one is negative or not finite.
+/// Returns the primvar "width", else "constantwidth", else a constant 1. Throws PrimError if one is negative or not
+/// finite.
 Primvar widthOf(const std::vector<Primvar>& primvars);
 
 /// Returns the primvar "N" if it has one normal for each element; null if there is none.

@@ -10,8 +10,7 @@ namespace {
 
 using Walk = std::vector<uint32_t>;
 
-// Greatest number of pairs of a hole's vertex and a corner that are tried where the bridge of the first key is not
-// clear.
+// Greatest number of pairs of a hole's vertex and a corner that are tried if the bridge of the first key is not clear.
 constexpr size_t kMostPairs = 10'000;
 
 /// Tells whether p lies between a and b, but on neither.
@@ -45,7 +44,7 @@ class Bridger {
 
  private:
   int size() const { return static_cast<int>(walk_.size()); }
-  /// Returns the number of the corner at a position in the walk, which goes round.
+  /// Returns the index of the corner at a position in the walk, which is cyclic.
   uint32_t number(int i) const { return walk_[static_cast<size_t>((i + size()) % size())]; }
   const Point2& corner(int i) const { return p_[number(i)]; }
 
@@ -113,7 +112,7 @@ class Bridger {
     return slopes != 0 ? slopes < 0 : x.x < y.x;
   }
 
-  /// Tells whether m lies towards the inside from corner i. This tells the copies of a corner apart that bridges have
+  /// Tells whether m lies towards the inside from corner i. This distinguishes the copies of a corner that bridges have
   /// made.
   bool sees(int i, const Point2& m) const { return sees(p_, i, m); }
   bool sees(const std::vector<Point2>& p, int i, const Point2& m) const {

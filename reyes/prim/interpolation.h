@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Element numbers at a patch's corners (u,v) = (0,0), (1,0), (0,1), (1,1): RISpec's order.
+/// Indices of elements at a patch's corners (u,v) = (0,0), (1,0), (0,1), (1,1): RISpec's order.
 using Corners = std::array<uint32_t, 4>;
 
 /// Writes component c of point i to out[c * stride + i]. Weights are (1-u) and u, so that both sides of an edge, which
@@ -52,13 +52,12 @@ inline void setNormal(SurfacePoints points, int i, const vec3& normal) {
 }
 inline vec3 normalOf(SurfacePoints points, int i) { return {points.nx[i], points.ny[i], points.nz[i]}; }
 
-/// Returns a normal, of any length, for a point (u,v) where the derivatives are dependent, such as where an edge is a
-/// point: that of a point slightly nearer to the middle of the patch, where they are independent again. derivativesAt
-/// (u, v) returns dPdu and dPdv as a pair of vectors of Real. Of three steps the smallest counts at which the sine of
-/// the angle between the derivatives exceeds `leastSine`, which is chosen so that rounding does not turn the normal:
-/// 1e-4 for derivatives in single precision, whose rounding of 6e-8 grows where they are differences of near numbers;
-/// 1e-6 for derivatives in double precision, which keep the direction of a very small one, but of control points in
-/// single precision. Returns (0, 0, 1) if no step helps.
+/// Returns a normal, of any length, for a point (u,v) where the derivatives are parallel or zero, for example where an
+/// edge is a point. It is the normal of a point slightly nearer to the middle of the patch. derivativesAt(u, v) returns
+/// dPdu and dPdv as a pair of vectors of Real. Of three steps towards the middle it takes the smallest at which the
+/// sine of the angle between the derivatives exceeds `leastSine`, so that rounding does not turn the normal: 1e-4 for
+/// derivatives in single precision, whose rounding error of 6e-8 grows in differences of near numbers; 1e-6 for
+/// derivatives in double precision of control points in single precision. Returns (0, 0, 1) if no step helps.
 template <class Real, class DerivativesAt>
 glm::vec<3, Real> normalNearby(Real u, Real v, Real leastSine, const DerivativesAt& derivativesAt) {
   for (const Real step : {Real(1e-3), Real(1e-2), Real(1e-1)}) {

@@ -98,7 +98,7 @@ class NuPatch : public Prim {
  private:
   int column(uint32_t patch) const { return static_cast<int>(patch) % u_.patches(); }
   int row(uint32_t patch) const { return static_cast<int>(patch) / u_.patches(); }
-  /// Returns the number of a patch's segment in rows of `width`, segments or controls.
+  /// Returns the index of a patch's segment in rows of `width`, in segments or controls.
   size_t numberInRows(uint32_t patch, int width) const {
     const int u = u_.spans[static_cast<size_t>(column(patch))].segment,
               v = v_.spans[static_cast<size_t>(row(patch))].segment;
@@ -142,7 +142,7 @@ class NuPatch : public Prim {
   }
 
   /// An edge is closed if it is a point, or if it equals the opposite edge of the next patch, also around the ends of
-  /// the surface: a NURBS has no other way to say that it closes.
+  /// the surface, because a NURBS has no other way to be closed.
   uint8_t findOpenEdges(uint32_t patch) const {
     const auto patchAt = [&](int i, int j) {
       return static_cast<uint32_t>((j + v_.patches()) % v_.patches() * u_.patches() +

@@ -27,8 +27,9 @@ void requireBSpline(const NurbsDirection& line, const char* name) {
   if (!std::isfinite(line.min) || !std::isfinite(line.max)) refuse(name, "the range is not finite");
 }
 
-/// Weights of a span's controls in its polar form at `arguments`, of which there are `degree` (de Boor's recursion
-/// backwards; L. Ramshaw, "Blossoms are polar forms", 1989). knots[0] and knots[1] are those before and after the span.
+/// Computes the weights of a span's controls in its polar form at `arguments`, of which there are `degree` (de Boor's
+/// recursion backwards; L. Ramshaw, "Blossoms are polar forms", 1989). knots[0] and knots[1] are the knots before and
+/// after the span.
 void polarWeights(const float* knots, int degree, const double* arguments, double* weights) {
   std::fill_n(weights, degree, 0.0);
   weights[degree] = 1;
@@ -106,7 +107,7 @@ std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name
     const float begin = std::max(low, line.knots[k]), end = std::min(high, line.knots[k + 1]);
     if (!(begin < end)) continue;
     BezierSpan span = makeSpan(line, static_cast<int>(k - first), begin, end);
-    // If the order many knots are equal, the curve may jump.
+    // If as many knots as the order are equal, the curve may jump.
     if (!spans.empty() && span.segment - spans.back().segment < line.order) join(spans.back(), span, line.order);
     spans.push_back(std::move(span));
   }

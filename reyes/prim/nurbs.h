@@ -8,15 +8,15 @@ constexpr int kHighestOrder = 32;
 
 /// A knot interval that is not empty, cut to the range that is drawn, as a piece of a Bezier curve.
 struct BezierSpan {
-  /// Number of the interval, empty ones included. Its controls are number segment, segment + 1, ..., `order` of them.
+  /// Index of the interval, counting empty ones. Its controls are the `order` ones from index `segment` on.
   int segment;
   float begin, end;             ///< Knot values.
-  float cornerFrom, cornerTo;   ///< The same as fractions of the knot interval.
+  float cornerFrom, cornerTo;   ///< `begin` and `end` as fractions of the knot interval.
   std::vector<double> weights;  ///< Row k of `order` holds the weights of the controls in Bezier control k.
 };
 
-/// Checks one direction; throws PrimError if it is no B-spline. Spans that meet without a jump have the same weights,
-/// to the bit, where they meet.
+/// Checks and cuts one direction; throws PrimError if it is no B-spline. Spans that meet without a jump have
+/// bit-identical weights there.
 std::vector<BezierSpan> bezierSpans(const NurbsDirection& line, const char* name, Problems& problems);
 
 /// Homogeneous controls, u fastest; not owned.
@@ -30,14 +30,14 @@ struct RationalPoint {
 };
 
 RationalPoint evaluateRational(const RationalNet& net, double u, double v);
-/// Evaluates a patch. Where the derivatives do not span a plane, because their product is no longer than `degenerate`,
-/// the normal is that of a point slightly nearer to the middle.
+/// Evaluates a patch. Where the derivatives span no plane, because the length of their cross product is at most
+/// `degenerate`, the normal is that of a point slightly nearer to the middle.
 void evaluateRational(const RationalNet& net, double degenerate, int n, const float* u, const float* v,
                       const SurfacePoints& out);
 
 /// Interpolates a vertex variable, weighted like the positions, so that values stay where they are on the surface.
-/// convert(controlOf, out) appends the Bezier controls of the patch to `out`. It calls controlOf(number) for the
-/// homogeneous control of that number.
+/// convert(controlOf, out) appends the Bezier controls of the patch to `out`. It calls controlOf(index) for a
+/// homogeneous control.
 template <class Convert>
 void interpolateRational(const Primvar& var, const std::vector<vec4>& controls, int uOrder, int vOrder,
                          const Convert& convert, int n, const float* u, const float* v, float* out, int stride) {

@@ -1,4 +1,4 @@
-// Private to patch meshes: how controls and values are counted, and which edges meet.
+// Private to patch meshes: the indices of controls and values, and which edges meet.
 #pragma once
 #include "reyes/prim/bicubic.h"
 #include "reyes/prim/interpolation.h"
@@ -19,7 +19,7 @@ struct Layout {
   size_t corners() const { return static_cast<size_t>(u.corners()) * static_cast<size_t>(v.corners()); }
   PrimvarCounts counts() const { return {patches(), corners(), controls(), corners()}; }
 
-  /// Numbers of the varying values at a patch's corners.
+  /// Returns the indices of the varying values at a patch's corners.
   Corners cornersOf(uint32_t patch) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
     const auto number = [&](int du, int dv) {
@@ -27,7 +27,7 @@ struct Layout {
     };
     return {number(0, 0), number(1, 0), number(0, 1), number(1, 1)};
   }
-  /// Returns the number of control (k, l) of a patch.
+  /// Returns the index of control (k, l) of a patch.
   size_t controlOf(uint32_t patch, int k, int l) const {
     const int i = static_cast<int>(patch) % u.patches, j = static_cast<int>(patch) / u.patches;
     const int row = (j * v.step + l) % v.controls, column = (i * u.step + k) % u.controls;
@@ -72,8 +72,9 @@ class PatchMesh : public Prim {
   virtual void interpolateVertex(uint32_t patch, const Primvar& var, int n, const float* u, const float* v, float* out,
                                  int stride) const = 0;
 
-  /// An edge is closed if it is a point, or if it equals the opposite edge of the next patch, also in a mesh that ends
-  /// where it began but is not periodic. edge(patch, bit) lists the control points of an edge.
+  /// Finds the edges that are not closed. An edge is closed if it is a point, or if it equals the adjoining edge of the
+  /// next patch, also in a mesh that ends where it began but is not periodic. edge(patch, bit) lists the control points
+  /// of an edge.
   template <class EdgeOf>
   uint8_t findOpenEdges(uint32_t patch, const EdgeOf& edge) const {
     struct Side {
@@ -94,9 +95,9 @@ class PatchMesh : public Prim {
   const Layout mesh_;
 };
 
-/// Makes rational patches: "Pw" whose weights differ. The two matrices convert `order` controls along either side of a
-/// patch to those of a Bezier patch. Vertex primvars are weighted like positions. Throws PrimError unless all Bezier
-/// weights are positive.
+/// Makes rational patches, for "Pw" with different weights. The two matrices convert `order` controls along either side
+/// of a patch to those of a Bezier patch. Vertex primvars are weighted like positions. Throws PrimError unless all
+/// Bezier weights are positive.
 PrimPtr makeRationalMesh(const Layout& mesh, int order, const ToBezier& u, const ToBezier& v, const ParamList& params,
                          Problems& problems);
 /// Tells whether the parameters ask for a rational mesh.

@@ -15,7 +15,7 @@ using Outlines = std::vector<std::vector<Point2>>;
 /// counter-clockwise.
 std::vector<Point2> projected(const std::vector<vec3>& points, const glm::dvec3& normal);
 
-/// Twice the signed area of triangle abc.
+/// Returns twice the signed area of triangle abc.
 inline double turn(const Point2& a, const Point2& b, const Point2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

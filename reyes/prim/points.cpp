@@ -24,7 +24,7 @@ double latticeSphereArea(int nu, int nv) {
   return area;
 }
 
-/// What particles of all shapes have in common: a place and a width each.
+/// Particles of any shape: each has a place and a width.
 class Particles : public Prim, public Scattered {
  public:
   Particles(std::vector<vec3> points, std::vector<Primvar> primvars)
@@ -74,7 +74,7 @@ class Particles : public Prim, public Scattered {
   Primvar width_;
 };
 
-/// Shapes with a plane, which is that of "N" or faces the eye.
+/// Flat shapes, whose plane has the normal "N" or faces the eye.
 template <class Shape>
 class FlatPoints : public Particles {
  public:
@@ -204,7 +204,7 @@ class Squares : public FlatPoints<Squares> {
     return {points_[patch], width * (c * right - s * down), width / valueOf(aspect_, patch) * (c * down + s * right)};
   }
 
-  /// Returns the values of "constant" + name or of name; one for all, or one for each point.
+  /// Returns the values of the primvar "constant" + name, or of `name`: one for all points, or one for each.
   std::vector<float> numbersOf(const std::string& name, float fallback) const {
     std::vector<float> out{fallback};
     for (const std::string& wanted : {"constant" + name, name})

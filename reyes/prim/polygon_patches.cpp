@@ -107,7 +107,7 @@ class Decomposer {
     loopStart_.push_back(static_cast<int>(corner_.size()));
   }
 
-  /// The face-vertex at a position among the corners, and whether its edge to the next one is open.
+  /// Return the face-vertex at a position among the corners, and whether its edge to the next one is open.
   uint32_t cornerAt(int k) const { return corner_[static_cast<size_t>(k)]; }
   bool openAt(int k) const { return open_[static_cast<size_t>(k)] != 0; }
   int nextInLoop(int k) const {
@@ -115,7 +115,7 @@ class Decomposer {
     return k + 1 < *end ? k + 1 : *(end - 1);
   }
 
-  /// Makes one closed walk of the loops. A bridge is never open.
+  /// Joins the loops to one closed walk. A bridge is never open.
   void joinHoles() {
     const BridgedOutline outline = bridgeHoles(outlines_, loopStart_);
     holesIgnored_ += static_cast<size_t>(outline.ignored);
@@ -196,7 +196,7 @@ class Decomposer {
     out_.patches.add({corners, static_cast<uint32_t>(out_.faces.size() - 1), info});
   }
 
-  /// Makes a mean of face-vertices, and returns its number.
+  /// Makes a mean of face-vertices, and returns its index.
   uint32_t make(std::span<const uint32_t> from) {
     out_.made.add(from);
     return static_cast<uint32_t>(vertices_.size() + out_.made.count() - 1);
@@ -204,8 +204,8 @@ class Decomposer {
 
   bool openBetween(int a, int b) const { return (a + 1) % static_cast<int>(corner_.size()) == b && openAt(a); }
 
-  /// Adds a triangle as one patch. Its edge v = 1 is the corner opposite to its shortest side: lines along u are short,
-  /// and a function that is linear over the triangle is so over the patch.
+  /// Adds a triangle as one patch. Its edge v = 1 is the corner opposite to its shortest side, so that lines along u
+  /// are short. A function that is linear over the triangle is also linear over the patch.
   void addTriangle(const Piece& piece) {
     const auto side = [&](size_t k) {
       const vec3 d = position(*keys_[0], cornerAt(piece[(k + 1) % 3])) - position(*keys_[0], cornerAt(piece[k]));

@@ -1,6 +1,7 @@
-// Private to polygons: cuts faces of polygons into bilinear patches. A convex quadrilateral is one patch, and so is a
-// triangle, with an edge of no length. Every other face is cut into convex pieces first. Each piece becomes triangles
-// and quadrilaterals around its centre, which meet the neighbours at the midpoints of the edges (docs/decisions/0041).
+// Private to polygons: cuts faces of polygons into bilinear patches. A convex quadrilateral is one patch. So is a
+// triangle, one edge of which has no length. Every other face is cut into convex pieces first. Each piece becomes
+// triangles and quadrilaterals around its centre, which meet the neighbours at the midpoints of the edges
+// (docs/decisions/0041).
 #pragma once
 #include <span>
 
@@ -8,8 +9,8 @@
 
 namespace tomales {
 
-/// Corners are numbered by face-vertex: those of the RIB first, then made points. Made point k is also vertex number
-/// (vertices of the RIB) + k.
+/// Corners are indices of face-vertices: first those of the RIB, then made points. Made point k is also vertex (number
+/// of vertices in the RIB) + k.
 struct QuadPatch {
   Corners corners;
   uint32_t face;
@@ -73,10 +74,10 @@ struct Decomposition {
 };
 
 /// Decomposes faces. A face is a run of loops, its outline and its holes; a loop is a run of `vertices`. All counts
-/// have been checked. Faces without area at any key and holes outside of their polygon are dropped with a sentence.
-/// `keys`: the positions at every key of motion, empty if nothing moves. All keys are cut alike where that is possible
-/// without overlap at any key; otherwise the first key decides, with a sentence. `Decomposition::faces` are those of
-/// `positions`.
+/// have been checked. Faces without area at every key, and holes outside of their polygon, are dropped, with a sentence
+/// in `problems`. `keys`: the positions at every key of motion, empty if nothing moves. All keys are cut alike if that
+/// is possible without overlap at any key; otherwise the first key decides, with a sentence in `problems`.
+/// `Decomposition::faces` belong to `positions`.
 Decomposition decompose(const std::vector<int>& loopCounts, const std::vector<int>& vertexCounts,
                         const std::vector<int>& vertices, const std::vector<vec3>& positions, const PointKeys& keys,
                         Problems& problems);

@@ -5,8 +5,8 @@
 namespace tomales {
 
 enum class Count { Exactly, AtLeast };
-/// Returns "P", or "Pw" divided by w. Throws PrimError if there are not as many points as are needed, or if a
-/// coordinate is not finite.
+/// Returns "P", or "Pw" divided by w. Throws PrimError if the number of points does not fit, or if a coordinate is not
+/// finite.
 std::vector<vec3> takePositions(const ParamList& params, Count count, size_t needed, Problems& problems);
 
 /// Returns "P" with weight 1, or "Pw" unchanged: exactly `count` homogeneous points. Throws PrimError like
@@ -16,8 +16,8 @@ std::vector<vec4> takeHomogeneous(const ParamList& params, size_t count);
 /// Throws PrimError unless every value is finite; `what` begins the sentence.
 void requireFinite(std::initializer_list<float> values, const char* what);
 
-/// Face sizes and vertex indices as PointsPolygons and SubdivisionMesh give them: throws PrimError on a
-/// negative size or index and on sizes that do not add up. Returns 1 + the highest index.
+/// Checks face sizes and vertex indices of PointsPolygons and SubdivisionMesh. Throws PrimError on a negative size or
+/// index, and on sizes that do not add up. Returns 1 + the highest index.
 size_t requireFaces(const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
 }  // namespace tomales

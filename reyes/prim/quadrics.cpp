@@ -47,7 +47,7 @@ class ArcRevolution : public Revolution {
       m.dx[i] = -speed * sine;
       m.dy[i] = 0;
       m.dz[i] = speed * cosine;
-      // dPdu changes side where the arc crosses the axis (a spindle torus), and with it dPdu x dPdv.
+      // Where the arc crosses the axis (a spindle torus), dPdu reverses, and so does dPdu x dPdv.
       const float side = m.x[i] == 0 ? (radius_ < 0 ? -flip : flip) : m.x[i] < 0 ? -flip : flip;
       m.nx[i] = side * cosine;
       m.ny[i] = 0;
@@ -147,7 +147,7 @@ class Paraboloid : public Revolution {
       m.x[i] = rmax_ * root;
       m.y[i] = 0;
       m.z[i] = z;
-      // dr/dz is infinite at the apex; below a thousandth of the radius it keeps that radius's value.
+      // dr/dz is infinite at the apex; below a thousandth of the radius it keeps its value there.
       m.dx[i] = range * slope / (rmax_ * std::max(root, 1e-3f));
       m.dy[i] = 0;
       m.dz[i] = range;

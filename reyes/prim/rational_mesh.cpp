@@ -11,7 +11,7 @@ const Param* weightedPositions(const ParamList& params) {
   return findParam(params, "P") || findParam(params, "Pz") ? nullptr : findParam(params, "Pw");
 }
 
-/// Returns the controls unchanged: tangents, which some bases have among their controls, may have weight 0.
+/// Returns the controls unchanged. Weights of 0 are allowed, because some bases have tangents among their controls.
 std::vector<vec4> takeControls(const ParamList& params, size_t count) {
   const std::vector<float>& f = weightedPositions(params)->floats;
   if (f.size() != 4 * count)

@@ -1,5 +1,5 @@
-// Private to the primitives: surfaces of revolution about z. All seven quadrics (RISpec section 5.4) are one of these
-// with a meridian.
+// Private to the primitives: surfaces of revolution about z. All seven quadrics (RISpec section 5.4) are such surfaces,
+// each with its own meridian.
 #pragma once
 #include <array>
 
@@ -35,12 +35,12 @@ class Revolution : public Prim {
   /// Fills n <= kChunk entries.
   virtual void meridian(int n, const float* v, Meridian& out) const = 0;
 
-  /// Two points such that every meridian point between v0 and v1 lies, in (x,y) and in z, between them.
+  /// Returns two points that bound the meridian from v0 to v1: each of its points lies between them in (x,y) and in z.
   virtual std::array<vec3, 2> meridianHull(float v0, float v1) const = 0;
 
   bool isClosed() const { return std::abs(sweep_turns_) == 1; }
 
-  /// Marks edges that are poles or that join the opposite edge.
+  /// Marks edges as closed: those that are poles or join the opposite edge.
   void close(int edges) { openEdges_ = static_cast<uint8_t>(openEdges_ & ~edges); }
 
  private:

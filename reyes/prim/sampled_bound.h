@@ -1,12 +1,13 @@
-// Private to the primitives: a box around a smooth piece of surface of which only points are known.
+// Private to the primitives: a box around a smooth piece of surface that can only be sampled at points.
 #pragma once
 #include "reyes/prim.h"
 
 namespace tomales {
 
-/// Bounds samples of the piece, grown by the distance that it can bulge between them; positionAt(u, v) is a point of
-/// the surface. A function's distance from its linear interpolant is an eighth of the second difference where curvature
-/// is even; four times that is allowed in each direction, because next to a crease it is not even.
+/// Returns the bound of samples of the piece, grown by the distance that it can bulge between them. positionAt(u, v)
+/// returns a point of the surface. Where curvature is even, a function differs from its linear interpolant by an eighth
+/// of the second difference. Four times that is allowed in each direction, because curvature is not even next to a
+/// crease.
 template <class PositionAt>
 Bound3 boundOfSamples(const UvRect& rect, const PositionAt& positionAt) {
   constexpr int kSide = 5;

@@ -8,8 +8,8 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-/// Number of corners of the faces around a face, above which the face is crowded. A regular face has 32; up to this
-/// limit Bfr, which keeps nothing, is as fast.
+/// Number of corners of the faces around a face, above which the face is crowded. A regular face has 32. Up to this
+/// limit Bfr, which caches nothing, is as fast.
 constexpr int kCrowd = 96;
 /// The surface that remains around an irregular vertex, the 2^-8th part of a face, is flat.
 constexpr int kLevel = 8;

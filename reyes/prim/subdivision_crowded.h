@@ -1,6 +1,6 @@
-// Private to the primitives: the limit surface of crowded faces, next to a vertex of many faces, or with many vertices
-// of their own. Bfr refines the neighbourhood of each face by itself, which around a vertex of N faces takes N^3 steps;
-// here all of them are refined together, once.
+// Private to the primitives: the limit surface of crowded faces, which have a vertex of many faces, or many vertices of
+// their own. Bfr refines the neighbourhood of each face separately, which takes N^3 steps around a vertex of N faces;
+// here all of them are refined together.
 #pragma once
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTable.h>
@@ -27,8 +27,8 @@ class CrowdedFaces {
   /// Refines values of `width` floats each, given by vertex or for a face-varying channel.
   Values refine(const float* meshValues, int width, int faceVaryingChannel = -1) const;
 
-  /// Evaluates at a point of the face, or of a corner's part of it: the coordinates are those of Far's ptex faces.
-  /// `byU` and `byV` may be null.
+  /// Evaluates at a point of the face, or of a corner's part of it, in the coordinates of Far's ptex faces. `byU` and
+  /// `byV` may be null.
   void evaluate(const Values& values, int face, int corner, float u, float v, float* value, float* byU,
                 float* byV) const;
 

@@ -21,7 +21,7 @@ void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, c
   }
 }
 
-/// OpenSubdiv's weights of the limit around a vertex are as many as the square of its corners: here 250 MB.
+/// OpenSubdiv's weights of the limit around a vertex grow with the square of its corners: the limit here is 250 MB.
 std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
                                         size_t vertexCount) {
   constexpr size_t kMost = 8192;

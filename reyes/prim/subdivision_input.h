@@ -6,11 +6,12 @@
 
 namespace tomales {
 
-/// Throws PrimError for a face that OpenSubdiv would not check: too small, of more than `largest` vertices, or twice at
-/// one vertex. Sizes and indices have passed requireFaces().
+/// Throws PrimError for a face that OpenSubdiv does not check: one that is too small, has more than `largest` vertices,
+/// or meets a vertex twice. Pre: sizes and indices have passed requireFaces().
 void requireSubdividable(size_t largest, const std::vector<int>& vertexCounts, const std::vector<int>& vertices);
 
-/// The first vertex around which lie more corners of faces than can be refined in reasonable memory, with their number.
+/// The first vertex that has more corners of faces around it than can be refined in reasonable memory, and their
+/// number.
 struct Crowd {
   int vertex;
   size_t corners;
@@ -18,7 +19,8 @@ struct Crowd {
 std::optional<Crowd> crowdBeyondMeasure(const std::vector<int>& vertexCounts, const std::vector<int>& vertices,
                                         size_t vertexCount);
 
-/// A face-varying primvar. Values on which a vertex's faces agree are merged, so that it may be smooth there.
+/// A face-varying primvar. Values on which the faces of a vertex agree are merged, so that the primvar may be smooth
+/// there.
 struct FaceVaryingChannel {
   std::vector<int> indices;  ///< Indexed by face-vertex.
   std::vector<float> values;

@@ -19,7 +19,7 @@ Frame frameAt(const FaceAt& face, const FaceMap& map, float u, float v) {
   return {p, byU.x * ds + byU.y * dt, byV.x * ds + byV.y * dt};
 }
 
-/// Returns the cross product of the derivatives; where they are dependent, normalNearby().
+/// Returns the cross product of the derivatives, or normalNearby() where they are parallel or zero.
 vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Frame& frame) {
   constexpr float kLeastSine = 1e-4f;
   const vec3 normal = cross(frame.du, frame.dv);
@@ -32,8 +32,8 @@ vec3 normalAt(const FaceAt& face, const FaceMap& map, float u, float v, const Fr
 
 }  // namespace
 
-/// Converts control points of a uniform B-spline, u fastest. Next to a boundary or a crease Bfr repeats control points
-/// for missing ones; it evaluates such faces itself.
+/// Converts control points of a uniform B-spline, u fastest. Next to a boundary or a crease, Bfr repeats control points
+/// in place of missing ones; such faces are left to Bfr.
 std::optional<BezierPatch> asBicubic(const Limit& limit) {
   constexpr size_t kControls = 16;
   if (!limit.surface.IsRegular() || limit.surface.IsLinear() || limit.surface.GetNumControlPoints() != int{kControls})

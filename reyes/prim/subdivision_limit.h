@@ -17,8 +17,7 @@ namespace tomales {
 using LimitFactory = OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
     std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
 
-/// Options so accurate that the surface is an approximation only in the 2^-8th part of a face next to an irregular
-/// vertex.
+/// Returns options so accurate that only the 2^-8th part of a face next to an irregular vertex is approximated.
 OpenSubdiv::Bfr::SurfaceFactory::Options limitOptions();
 
 /// One face's surface and its values, ready to evaluate.
@@ -32,8 +31,8 @@ struct Limit {
   }
 };
 
-/// A face in a regular neighbourhood is one bicubic patch, which is faster to evaluate and has tighter bounds. Pre:
-/// `limit` holds positions.
+/// Returns the face as one bicubic patch if its neighbourhood is regular. That is faster to evaluate and has tighter
+/// bounds. Pre: `limit` holds positions.
 std::optional<BezierPatch> asBicubic(const Limit& limit);
 
 /// Maps a patch's unit square to the coordinates of its face. A patch is a whole quadrilateral, or one corner's part of
@@ -50,13 +49,13 @@ class FaceMap {
   vec2 origin_{0, 0}, alongU_{1, 0}, alongV_{0, 1}, twist_{0, 0};
 };
 
-/// Evaluates a face's position at its own coordinates, and the derivatives by these unless they are null.
+/// Returns a face's position at its own coordinates, and sets the derivatives by these unless the pointers are null.
 using FaceAt = std::function<vec3(const vec2& at, vec3* ds, vec3* dt)>;
 
 void evaluateFace(const FaceAt& face, const FaceMap& map, int n, const float* u, const float* v, SurfacePoints out);
 
-/// Returns the bound of a piece of a face: the box around its samples (boundOfSamples()), as far as it lies in `hull`,
-/// a box around control points with positive weights.
+/// Returns the bound of a piece of a face: the box around its samples (boundOfSamples()), cut to `hull`, a box around
+/// control points with positive weights.
 Bound3 boundFace(const FaceAt& face, const FaceMap& map, const UvRect& rect, const Bound3& hull);
 
 }  // namespace tomales

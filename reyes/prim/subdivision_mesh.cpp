@@ -21,7 +21,7 @@ struct PositionLimit : Limit {
   Bound3 hull;  ///< Bound of the control points.
 };
 
-/// Returns a number that tells meshes apart, also from deleted ones.
+/// Returns a number that no other mesh has, not even a deleted one.
 uint64_t nextId() {
   static std::atomic<uint64_t> last{0};
   return ++last;

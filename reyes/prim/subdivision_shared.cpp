@@ -16,7 +16,7 @@ void fields(A& a, MeshTags& x) {
 
 namespace {
 
-/// Limit for the vertices of faces; larger meshes are rarely alike, and would be long keys.
+/// Limit on the vertices of faces; larger meshes are rarely equal, and would be long keys.
 constexpr size_t kLargest = 4096;
 
 std::string keyOf(const Coarse& mesh) {

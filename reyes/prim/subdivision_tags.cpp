@@ -110,7 +110,7 @@ class TagReader {
     if (const int k = choice(tag, 3); k >= 0) out.faceVarying = kMeaning[k];
   }
 
-  /// The argument 1 means the weights of every face, 2 those for triangles.
+  /// With the argument 1 triangles have the weights of other faces, with 2 their own.
   void readSmoothTriangles(const Tag& tag) {
     if (const int k = choice(tag, 2); k >= 0) out.smoothTriangles = k == 2;
   }

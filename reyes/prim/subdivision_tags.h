@@ -22,7 +22,8 @@ struct MeshTags {
   std::vector<int> holes;  ///< Faces.
 };
 
-/// Reads tags. A tag that makes no sense is dropped with a sentence; throws PrimError if the arrays are inconsistent.
+/// Reads tags. A tag that makes no sense is dropped, with a sentence in `problems`. Throws PrimError if the arrays are
+/// inconsistent.
 MeshTags readTags(const SubdivisionTags& tags, const EdgeFaces& edges, int faceCount, int vertexCount,
                   Problems& problems);
 

@@ -10,7 +10,7 @@ namespace {
 /// Relative to the parameter square: a tenth of a pixel for 50,000 px of surface.
 constexpr double kFlatness = 1.0 / (1 << 19);
 constexpr int kMostHalvings = 16;
-constexpr double kGap = 1e-4;  ///< Ends of curves no farther apart are closed without a warning.
+constexpr double kGap = 1e-4;  ///< Ends of curves no farther apart than this are joined without a warning.
 constexpr size_t kMostSlabs = 256;
 
 glm::dvec2 projected(const glm::dvec3& h) { return glm::dvec2(h) / h.z; }

@@ -9,8 +9,8 @@
 namespace tomales {
 namespace {
 
-/// Returns a unit vector across `along`, continuous over all directions but one, so that moving tubes keep their seams:
-/// the rotation of z onto the direction is applied to x (J. R. Frisvad 2012). That one direction is rare among curves.
+/// Returns a unit vector across `along`: the rotation of z onto that direction, applied to x (J. R. Frisvad 2012). It
+/// is continuous over all directions but one, which is rare among curves, so moving tubes keep their seams.
 vec3 acrossOf(const vec3& along) {
   static const mat3 kTurn = [] {
     const vec3 z = glm::normalize(vec3(0.31f, 0.57f, 0.76f));
@@ -120,8 +120,8 @@ class Tubes : public Prim {
     return vec3(valueAt(segments_.line(end ? end->segment : patch), end ? static_cast<float>(end->last) : v));
   }
 
-  /// The joint of two cylinders: a vector across the one in the plane of the bend becomes one across the mean of both
-  /// directions, longer by `longer`. A zero axis means that they are in line.
+  /// The joint of two cylinders. It turns a vector across one of them, in the plane of the bend, to be across the mean
+  /// of both directions, and lengthens it by `longer`. A zero axis means that they are in line.
   struct Joint {
     vec3 axis{0}, inPlane{0}, inMitre{0};
     float longer = 1;
@@ -216,7 +216,8 @@ class Tubes : public Prim {
   }
 
   /// Finds directions across the curve that turn no more than it does, by double reflection (W. Wang, B. Juettler, D.
-  /// Zheng, Y. Liu 2008), segment by segment. Those of a closed curve are turned back evenly, so that its ends meet.
+  /// Zheng, Y. Liu 2008), segment by segment. On a closed curve the remaining twist is distributed evenly, so that its
+  /// ends meet.
   void findSides() {
     sides_.resize(segments_.count());
     for (uint32_t k = 0; k < segments_.count() && !segments_.cubic(); ++k)

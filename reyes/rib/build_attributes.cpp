@@ -17,8 +17,8 @@ void textureCoordinates(GraphicsState& s, const Request& r) {
   for (size_t i = 0; i < 4; ++i) s.scope.edit().textureCoordinates[i] = {a[2 * i], a[2 * i + 1]};
 }
 
-// A thousand micropolygons a pixel are as many as sampling can tell apart, and take as long as one can wait for a scene
-// of one layer.
+// The limit of a thousand micropolygons per pixel is as many as sampling can distinguish, and takes as long as one can
+// wait even for a scene of one layer.
 void setShadingRate(GraphicsState& s, const Request& r) {
   s.scope.edit().shadingRate = clamped(s, r, s.scope.shadingRate * s.scope.relativeShadingRate, 1e-3f, 1e8f);
 }
@@ -30,7 +30,7 @@ void shadingRate(GraphicsState& s, const Request& r) {
   setShadingRate(s, r);
 }
 
-// PRMan has factors of ShadingRate, which multiply down the blocks until one is reset.
+// PRMan has factors on ShadingRate, which multiply through nested blocks until one is reset.
 void relativeShadingRate(GraphicsState& s, const Request& r, float factor, bool resets) {
   if (!(factor > 0)) return rejectAttribute(s, r, fmt::format("{} is no factor", factor));
   s.scope.relativeShadingRate = std::clamp(resets ? factor : factor * s.scope.relativeShadingRate, 1e-4f, 1e4f);
@@ -102,7 +102,7 @@ void trimSense(GraphicsState& s, const Request& r, const std::string& sense) {
   s.scope.trim = std::make_shared<TrimLoops>(TrimLoops{s.scope.trim->loops, sense == "outside"});
 }
 
-/// Checks the word that some attributes have.
+/// Checks the value of an attribute that takes one of some words.
 void checkWord(GraphicsState& s, const Request& r, const NamedAttribute& row, const std::string& word) {
   if (row.words.empty() || std::find(row.words.begin(), row.words.end(), word) != row.words.end()) return;
   s.warnOnce(std::string(row.name) + ' ' + word, r, "rib-unknown-attribute",
@@ -140,7 +140,7 @@ void attribute(GraphicsState& s, const Request& r) {
   }
 }
 
-// Ignores hints that other renderers cannot work without; this one bounds primitives itself.
+// Ignores hints that other renderers need; this one bounds primitives itself.
 void acceptHint(GraphicsState&, const Request&) {}
 
 }  // namespace

@@ -69,8 +69,8 @@ GroundPicture readGround(const std::string& path, const mat4& worldFromObject) {
   return out;
 }
 
-// A lone ellipsoid shows at half its radius, so each is as large as its point is wide. A point of no width makes
-// nothing.
+// A single ellipsoid shows at half its radius, so the radius of each is the width of its point. A point without width
+// makes no leaf.
 std::optional<Request> blobbyOfPoints(const Request& r) {
   if (!isOfBlobs(r)) return std::nullopt;
   const Param* place = findParam(r.params, "P");

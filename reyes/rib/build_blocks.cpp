@@ -1,5 +1,5 @@
-// The parts of the scene builder for requests that stand in blocks: motion blocks, retained objects and their
-// instances, and procedurals with what they expand to.
+// The parts of the scene builder for requests in blocks: motion blocks, retained objects and their instances, and
+// procedurals with their contents.
 #include <fmt/format.h>
 
 #include <utility>

@@ -21,7 +21,8 @@ float size_px2(const GraphicsState& s, const std::vector<float>& b) {
   return size.x * size.y;
 }
 
-/// Both shares of a transition are computed from the same numbers, so that they meet.
+/// Returns the share of a range. Both shares of a transition are computed from the same numbers, so that they add up to
+/// all samples.
 DetailShare shareOf(const std::array<float, 4>& range, float ruler) {
   const auto [least, lower, upper, most] = range;
   if (ruler < least || (ruler >= most && most < kRiInfinity)) return {0, 0};

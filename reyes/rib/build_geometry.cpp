@@ -79,7 +79,7 @@ PrimPtr patchMesh(const Request& r, const Scope& s, Problems& problems) {
   return makeBilinearPatchMesh(nu, uPeriodic, nv, vPeriodic, r.params, problems);
 }
 
-/// Makes two argument counts per tag, as SubdivisionMesh has, of three.
+/// Returns two argument counts for each tag, as SubdivisionMesh has them, from three.
 std::vector<int> withoutStrings(const std::vector<int>& pairs) {
   std::vector<int> out;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -162,7 +162,8 @@ const std::unordered_map<std::string_view, KeyBuilder>& keyBuilders() {
   return table;
 }
 
-/// Returns the request without primitive variables that hold NaN or infinity. Throws if those are the shape itself.
+/// Returns the parameters without primitive variables that hold NaN or infinity. Throws if one of those defines the
+/// shape itself.
 ParamList finiteParams(const ParamList& params, Problems& problems) {
   ParamList out;
   for (const Param& p : params) {

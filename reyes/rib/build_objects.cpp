@@ -32,7 +32,7 @@ bool sameTopology(const Prim& a, const Prim& b) {
          std::equal(a.primvars().begin(), a.primvars().end(), b.primvars().begin(), b.primvars().end(), alike);
 }
 
-/// Tells whether it is collapsed to a point or a line all the time, so that none of it has an area.
+/// Tells whether the motion collapses everything to a point or a line all the time, so that nothing has an area.
 bool vanishes(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const glm::dmat3 a(k);
@@ -48,7 +48,7 @@ std::string descriptionOf(const GraphicsState& state, const Request& r) {
   return name.empty() ? r.name : r.name + " \"" + name + "\"";
 }
 
-/// Tells whether geometry shows here. Where it does not, and no level of detail is the reason, it says why.
+/// Tells whether geometry is drawn here. If not, this is reported, unless a level of detail is the reason.
 bool isDrawn(GraphicsState& state, const Request& r, const Motion& cameraFromObject) {
   if (!state.world) {
     state.warnOnce("outside", r, "rib-outside-world",

@@ -9,7 +9,7 @@ namespace {
 
 using Restore = void (*)(Scope& to, const Scope& from);
 
-// A solid is a block of requests, not an attribute: it stays the one around.
+// A solid is a block of requests, not an attribute, so the enclosing solid stays.
 void restoreAll(Scope& to, const Scope& from) {
   const int solid = to.solid, solidBlock = to.solidBlock;
   to = from;

@@ -31,7 +31,7 @@ void areaLightSource(GraphicsState& s, const Request& r) {
   s.scope.edit().areaLight = index;
 }
 
-// Finds the latest light of that handle: RIB writers number anew in every frame.
+// Finds the latest light with that handle, because RIB writers restart their numbers in every frame.
 void illuminate(GraphicsState& s, const Request& r) {
   const auto& lights = s.globals.lights;
   const auto it = std::find_if(lights.rbegin(), lights.rend(),

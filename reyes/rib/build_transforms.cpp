@@ -47,7 +47,7 @@ std::optional<mat4> matrixOf(const Request& r) {
   return asMatrix(a.numbers);
 }
 
-// Makes the keys of Rotate about one axis, which turns by its angles: matrices cannot tell whole turns.
+// Makes keys that rotate about one axis by the angles of Rotate, because matrices do not show whole turns.
 Motion spun(const std::vector<const Request*>& keys, Motion motion) {
   constexpr float kMostPieces = 64;
   const auto axis = [&](size_t k) { return normalizeOr(asVec3(keys[k]->args[0], 1), vec3(0)); };

@@ -6,9 +6,9 @@
 
 namespace tomales::rib {
 
-/// Returns an object with an open edge that no edge of the others, or of itself elsewhere, runs along; null if there is
-/// none. It judges by points on the edges at the first motion key, to a hundredth of the size of the whole. Meshes of
-/// so many edges that this would take long count as closed.
+/// Returns an object with an open edge along which no other edge runs, of any object; null if there is none. It
+/// compares points on the edges at the first motion key, within a hundredth of the size of the whole. Meshes with too
+/// many edges to compare count as closed.
 const Object* findOpenEdge(std::span<const Object> objects);
 
 }  // namespace tomales::rib

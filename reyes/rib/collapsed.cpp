@@ -5,7 +5,7 @@
 namespace tomales::rib {
 namespace {
 
-/// Tells whether the request is a position or a scale at which nothing has a volume.
+/// Tells whether the request is a transformation that leaves nothing a volume.
 bool flattens(const Request& r) {
   if (r.name == "Scale") return asVec3(r.args[0]).x * asVec3(r.args[0]).y * asVec3(r.args[0]).z == 0;
   const bool matrix = r.name == "Transform" || r.name == "ConcatTransform";

@@ -4,7 +4,7 @@
 
 namespace tomales::rib {
 
-/// Returns the same number for requests that say the same, wherever they are written.
+/// Returns a checksum that is equal for equal requests, wherever they are written.
 uint64_t contentsOf(const std::vector<const Request*>& keys, const std::vector<float>& times, const Scope& scope);
 
 }  // namespace tomales::rib

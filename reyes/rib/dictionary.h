@@ -1,4 +1,4 @@
-// Declarations of parameter names: standard ones, those of Declare, and inline ones.
+// Declarations of parameter names: standard, by Declare, and inline.
 #pragma once
 #include <memory>
 #include <optional>
@@ -14,7 +14,7 @@ struct Declaration {
   Storage storage = Storage::Uniform;
   ValueType type = ValueType::Float;
   int arrayLength = 1;
-  bool standard = false;   ///< True if the type is the usual one of such a name, neither inline nor by Declare.
+  bool standard = false;   ///< True if the type is the standard one of the name, neither inline nor by Declare.
   bool reference = false;  ///< True for "reference color c": a string that stands in for a value of the type.
 };
 
@@ -25,17 +25,17 @@ class Dictionary {
   /// Holds the standard names of RISpec 3.2 and of the options and attributes that Tomales knows.
   Dictionary();
 
-  /// `declaration` is "class type[n]", where class and type may each be missing, and also [n], which is then 1. Returns
-  /// false if it is not understood.
+  /// `declaration` is "class type[n]". Each of the three may be missing; n is 1 then. Returns false if it is not
+  /// understood.
   bool declare(const std::string& name, const std::string& declaration);
 
   /// Finds the declaration for the token of a parameter list: a declared name, or an inline declaration "class type[n]
-  /// name". On success `name` is the bare name. `category` is that of Option and Attribute ("visibility"), whose own
-  /// names come first.
+  /// name". On success `name` is the bare name. `category` is the one of an Option or Attribute ("visibility"), whose
+  /// own names take precedence.
   std::optional<Declaration> find(const std::string& token, const std::string& category, std::string& name) const;
 
-  /// Sets ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; if it is
-  /// empty, a color has those three. Returns false if the matrix is not of this form.
+  /// Sets ColorSamples (RISpec 3.2 section 4.1.6): a row of red, green and blue for each number of a color; if there
+  /// are none, colors are red, green and blue. Returns false if the matrix is not of this form.
   bool setColorSamples(std::vector<float> rgbOfSamples);
   int colorSamples() const { return rgbOfSamples_.empty() ? 3 : static_cast<int>(rgbOfSamples_.size() / 3); }
   /// Converts colors of the stream to red, green and blue. Pre: their number is a multiple of colorSamples().

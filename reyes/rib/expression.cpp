@@ -11,8 +11,8 @@ namespace tomales::rib {
 namespace {
 
 constexpr int kDeepest = 200;
-constexpr size_t kMostSteps = 1 << 26;  ///< Most steps of a comparison with a pattern, each of whose characters may
-                                        ///< be compared with each of the text.
+constexpr size_t kMostSteps = 1 << 26;  ///< Most steps of a comparison with a pattern, which may compare each of its
+                                        ///< characters with each of the text's.
 constexpr size_t kMostToldOfUnknown = 1000;  ///< Bytes of unknown names in a message.
 
 void checkLength(size_t bytes) {
@@ -96,7 +96,7 @@ class Evaluator {
     while (take("&&")) value = truth(isTrue(value) & isTrue(unless(!isTrue(value), &Evaluator::equality)));
     return value;
   }
-  /// Reads an operand of which nothing depends if `known`: in "defined(a) && $a > 2" there may be no a.
+  /// Reads an operand that does not matter if `known`: in "defined(a) && $a > 2", `a` may not exist.
   std::string unless(bool known, std::string (Evaluator::*operand)()) {
     idle_ += known;
     std::string value = (this->*operand)();
@@ -235,7 +235,7 @@ class Evaluator {
   std::string_view rest_;
   const Variables& variables_;
   int depth_ = 0;
-  int idle_ = 0;  ///< More than 0 while what is read does not count.
+  int idle_ = 0;  ///< Greater than 0 while an operand that does not matter is read.
 };
 
 }  // namespace
@@ -244,7 +244,7 @@ bool holds(const std::string& expression, const Variables& variables) {
   return isTrue(Evaluator(expression, variables).all());
 }
 
-// No name holds a brace: else "${${${..." would be searched for longer and longer names.
+// Names contain no braces. Otherwise "${${${..." would be searched for longer and longer names.
 std::string substitute(const std::string& text, char mark, const Variables& variables, std::string& unknown) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {

@@ -10,8 +10,8 @@ namespace tomales::rib {
 /// Returns the value of a variable, or nothing if there is none of that name.
 using Variables = std::function<std::optional<std::string>(const std::string& name)>;
 
-/// The most bytes that the strings made by variables and concat() may have in one request. Without this limit a text of
-/// 2 KB could double a string again and again, to any length.
+/// The most bytes of strings that variables and concat() may make in one request. Without this limit a file of 2 KB
+/// could double a string again and again, to any length.
 constexpr size_t kLongestText = 1 << 20;
 
 struct ExpressionError : std::runtime_error {

@@ -149,11 +149,11 @@ std::vector<int> lacking(const Attributes& attributes, std::span<const World::La
 
 }  // namespace
 
-// Objects share attributes, so those that lack the same lights get them once. The contents of a procedural are read
-// with the attributes of its place, and have their own copies: they get the lights when they come.
+// Objects share attributes, so objects that lack the same lights get one changed copy. The contents of a procedural
+// have their own copies of attributes, and get the lights when the procedural is opened.
 void GraphicsState::lightEarlierObjects() {
   const std::span<const World::LateLight> late = world->lateLights;
-  // The late lights that come after the object or procedural of this number.
+  // Returns the late lights that come after the object or procedural of this index.
   const auto after = [late](size_t number, size_t World::LateLight::*before) {
     return std::span(std::ranges::upper_bound(late, number, {}, before), late.end());
   };
@@ -191,8 +191,8 @@ bool isFinite(const Motion& m) {
   });
 }
 
-// It computes in double precision: the determinant of a landscape in millimetres must not overflow, nor that of a scene
-// scaled far down underflow.
+// It computes in double precision, so that the determinant neither overflows for a landscape in millimetres nor
+// underflows for a scene that is scaled far down.
 bool isInvertible(const Motion& m) {
   return std::all_of(m.keys.begin(), m.keys.end(), [](const mat4& k) {
     const double d = glm::determinant(glm::dmat4(k));

@@ -17,8 +17,8 @@ namespace tomales::rib {
 struct DetailState {
   float ruler_px2 = kInfinity;                ///< Size of the Detail box in the picture.
   std::optional<std::array<float, 4>> range;  ///< DetailRange since the innermost block began.
-  DetailShare divided;  ///< Share that ranges divide among them, from the beginning of the ruler's block.
-  DetailShare left;     ///< Share that was left of it at the beginning of the innermost block.
+  DetailShare divided;  ///< Share that the ranges divide among them, as it was when the ruler's block began.
+  DetailShare left;     ///< The part of `divided` that was left when the innermost block began.
 };
 
 /// The state that AttributeBegin saves.
@@ -48,18 +48,18 @@ struct Master {
     std::vector<float> times;
     Basis uBasis, vBasis;
     bool roundCurves;
-    /// The shape was built with this, roundCurves and the bases. All else follows from the request: one that depends on
-    /// its place (hasGround) is built for each instance.
+    /// The shape was built with `trim`, roundCurves and the bases; all else follows from the request. A shape that
+    /// depends on its place (hasGround()) is built for each instance.
     std::shared_ptr<const TrimLoops> trim;
     float reach;        ///< The result of reachOf() for the requests.
     uint64_t contents;  ///< The result of contentsOf() for them.
   };
   std::vector<Request> requests;
-  std::map<size_t, Shapes> shapes;  ///< Indexed by the request's number.
+  std::map<size_t, Shapes> shapes;  ///< Indexed by the request's index.
   std::mutex mutex;                 ///< Protects the shapes: procedurals are opened by several threads.
 };
 
-/// The state that FrameBegin and WorldBegin save besides.
+/// The further state that FrameBegin and WorldBegin save.
 struct Globals {
   Options options;
   std::vector<std::shared_ptr<LightCall>> lights;
@@ -84,7 +84,7 @@ struct World {
   std::vector<Procedural> procedurals;
   std::vector<Solid> solids;
   SourceLoc where;
-  /// A light of the RIS era that has objects or procedurals before it, and the numbers of these.
+  /// A light of the RIS era that comes after objects or procedurals, and the numbers of these.
   struct LateLight {
     int light;
     size_t objects, procedurals;
@@ -105,26 +105,26 @@ class GraphicsState {
   Interner<const ShaderCall> shaderInterner;
   Interner<Attributes> attributesInterner;
   Motion identity;  ///< The matrix that Identity sets: the CTM of the instance while an object is replayed.
-  /// What Declare says of names, for Displays that show them. It outlives frames, as the declarations do.
+  /// Declarations by Declare, for Displays that show these names. They outlive frames.
   std::map<std::string, std::string> declared;
 
   void begin(Block block, const SourceLoc& where);
-  /// Restores what `begin` saved, and closes forgotten blocks within. Returns false, and changes nothing, if there is
-  /// no such block here.
+  /// Restores what `begin` saved, and closes blocks inside that were left open. Returns false, and changes nothing, if
+  /// no such block is open.
   bool end(Block block, const SourceLoc& where);
   bool isOpen(Block block) const;
 
-  /// Switches the light on here and after the blocks around have ended, as lights of the RIS era are.
+  /// Switches the light on here, and also after the enclosing blocks, as lights of the RIS era are.
   void switchOnEverywhere(int light);
   /// Switches the lights of the RIS era on for objects and procedurals that the world had before them. Call it when the
-  /// world is whole.
+  /// world is complete.
   void lightEarlierObjects();
   /// Turns the CTM into the camera: what was relative to the camera is now relative to the world.
   void enterWorld(const SourceLoc& where);
   Motion cameraFromObject() const { return world ? world->cameraFromWorld * scope.ctm : scope.ctm; }
 
   void warn(const Request& request, const char* code, const std::string& message) const;
-  /// Gives one message for all places that share the key.
+  /// Reports one message for all places that share the key.
   void warnOnce(const std::string& key, const SourceLoc& where, const char* code, const std::string& message,
                 Severity severity = Severity::Warning);
   void warnOnce(const std::string& key, const Request& request, const char* code, const std::string& message,

@@ -40,7 +40,7 @@ PrimPtr buildPrim(const Request& request, const Scope& scope, const MotionKeys& 
 /// Reads a file that a Display of depth has written. Throws PrimError.
 GroundPicture readGround(const std::string& path, const mat4& worldFromObject);
 
-/// Returns a bound of the coordinates of the shape's points, which may be larger than needed.
+/// Returns a conservative bound of the absolute coordinates of the shape's points.
 float reachOf(const Request& request);
 
 /// TrimCurve: sets the loops that cut the NuPatches after it, none if it is empty.
@@ -57,10 +57,10 @@ inline vec3 asVec3(const RibArg& a, size_t at = 0) { return {a.numbers[at], a.nu
 mat4 asMatrix(const std::vector<float>& sixteen);
 /// Returns the value within the limits, and reports a change.
 float clamped(GraphicsState& state, const Request& request, float value, float least, float most);
-/// Warns once for each "category:name" of an Option or Attribute. If something else does what it asks for, the message
-/// says that, and nothing is wrong with the picture.
+/// Warns once for each "category:name" of an Option or Attribute that is ignored. If another setting does the same, the
+/// message names it, and the picture is not wrong.
 void warnOfIgnored(GraphicsState& state, const Request& request, const std::string& key);
-/// Returns a basis of RISpec 3.2 section 5.2 with its step; nothing if none has that name.
+/// Returns the basis of this name (RISpec 3.2 section 5.2) with its step, or nothing if there is none.
 std::optional<Basis> basisNamed(std::string_view name);
 ShaderCall makeShaderCall(const GraphicsState& state, const Request& request);
 

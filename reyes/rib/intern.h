@@ -1,15 +1,15 @@
-// Makes equal values one: shading works on objects that share their attributes, and RIB repeats itself.
+// Makes equal values share one object: shading groups objects that share their attributes, and RIB repeats itself.
 #pragma once
 #include <array>
 #include <memory>
 
 namespace tomales::rib {
 
-/// Remembers the latest distinct values, enough for scenes that alternate between a few materials.
+/// Remembers the latest distinct values; that suffices for scenes that alternate between a few materials.
 template <class T>
 class Interner {
  public:
-  /// Returns an equal value that is known, or else this one.
+  /// Returns a known equal value, or else `value` itself, which is known from now on.
   std::shared_ptr<T> operator()(std::shared_ptr<T> value) {
     for (const std::shared_ptr<T>& known : recent_)
       if (known && (known == value || *known == *value)) return known;

@@ -120,7 +120,7 @@ void Lexer::takeNumbers(std::vector<T>& out) {
 template void Lexer::takeNumbers(std::vector<float>& out);
 template void Lexer::takeNumbers(std::vector<int>& out);
 
-// Reads the everyday numbers that lie in the buffer as a whole, without making tokens of them.
+// Reads common numbers that are wholly in the buffer, without making tokens of them.
 template <class T>
 void Lexer::takeWrittenNumbers(std::vector<T>& out) {
   const char *p = stream_.begin(), *const last = stream_.end();
@@ -198,7 +198,7 @@ void Lexer::readEscape() {
   }
 }
 
-// RISpec has no 'string', but scenes have: a word in such quotes is one.
+// RISpec has no 'string', but scenes use it: a word in single quotes is a string.
 void Lexer::readWord() {
   bool tooLong = false;
   while (isWord(stream_.peek())) {

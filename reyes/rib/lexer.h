@@ -38,16 +38,15 @@ class Lexer {
   }
 
   const Token& peek() const { return token_; }
-  /// Returns the file or program that the token stands in: the stream's, or the one that wrote it, if that said so by a
-  /// comment of the form #line 12 "scene.py". The line after such a comment has the number that it gives, as in C.
+  /// Returns the file or program of the token: the stream's own name, or a source that a comment of the form #line 12
+  /// "scene.py" names. The line after such a comment has the number that it gives, as in C.
   const std::shared_ptr<const std::string>& file() const { return file_; }
   void advance();
-  /// Does the same as advance(), past all numbers and brackets that are written before the next other token. It does
-  /// not look at them.
+  /// Does the same as advance(), but skips all numbers and brackets up to the next other token, without parsing them.
   void advancePastNumbers();
 
   bool atNumbers() const { return token_.kind == Token::Kind::Number || token_.kind == Token::Kind::Floats; }
-  /// Appends the number or encoded array that is next, and moves past it. Pre: atNumbers().
+  /// Appends the next number or encoded array, and moves past it. Pre: atNumbers().
   template <class T>
   void takeNumber(std::vector<T>& out);
   /// Appends all numbers from here up to the next other token.
@@ -55,7 +54,7 @@ class Lexer {
   void takeNumbers(std::vector<T>& out);
 
  private:
-  /// Returns false after a definition: the token is still to come.
+  /// Returns false after a definition, which is no token yet.
   bool readToken();
   void skipBlanks();
   void skipComment();

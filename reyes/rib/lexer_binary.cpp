@@ -116,7 +116,7 @@ bool Lexer::readDefinition() {
   return token_.kind == Token::Kind::String;
 }
 
-// Reads as many as there are: the count alone must not allocate anything.
+// Reads numbers while there are any. The count alone must not allocate memory.
 void Lexer::readFloats(uint64_t count) {
   token_.kind = Token::Kind::Floats;
   token_.floats.clear();

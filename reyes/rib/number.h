@@ -4,17 +4,17 @@
 
 namespace tomales::rib {
 
-/// A number in both precisions: rounding to float by way of double would round twice.
+/// A number in both precisions, because a conversion from double to float would round twice.
 struct ScannedNumber {
   double wide;
   float narrow;
 };
 
-/// Reads a number off [first, last), "inf" and "nan" included; one beyond the largest becomes infinity. Returns the end
-/// of the number, or `first` if there is none.
+/// Reads a number at the start of [first, last), "inf" and "nan" included. A number beyond the largest float or double
+/// becomes infinity. Returns the end of the number, or `first` if there is none.
 const char* scanNumber(const char* first, const char* last, ScannedNumber& out);
 
-/// Does the quick part of scanNumber(). It returns null if there is no number, or one that is not of the everyday kind.
+/// The fast path of scanNumber(). Returns null if there is no number, or one that needs the slow path.
 const char* scanEverydayNumber(const char* first, const char* last, ScannedNumber& out);
 
 }  // namespace tomales::rib

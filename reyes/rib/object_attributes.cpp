@@ -5,8 +5,7 @@
 namespace tomales::rib {
 namespace {
 
-/// Returns the strings of a primitive that surfaces need not interpolate: those with one value, which holds for all of
-/// it.
+/// Returns the strings of a primitive that need no interpolation, because they have one value for all of it.
 ParamList stringsOf(const Request& r) {
   ParamList out;
   const bool has = r.name != "Points" && r.name != "Geometry" && r.name != "Volume";  // their strings say what they are
@@ -19,8 +18,7 @@ ParamList stringsOf(const Request& r) {
   return out;
 }
 
-/// Returns the call for a primitive whose values take the place of the shader's own (RISpec 3.2 section 5, primitive
-/// variables).
+/// Returns the call with the parameters that a primitive's values replace (RISpec 3.2 section 5, primitive variables).
 std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const ParamList& values) {
   auto call = std::make_shared<ShaderCall>(given);
   for (const Param& p : values) {
@@ -30,8 +28,8 @@ std::shared_ptr<const ShaderCall> overridden(const ShaderCall& given, const Para
   return call;
 }
 
-// The camera sees the far sides of its box alone, which are clear: what lies before them is shaded as air. It is made
-// of what Interior says, or else has the object's color as its albedo.
+// The camera sees only the far sides of the box, which are clear; what is in front of them is shaded as air. The
+// material is that of Interior; without one, the object's color is the albedo.
 std::shared_ptr<Attributes> attributesOfVolume(const Request& r, const GraphicsState& s) {
   auto out = std::make_shared<Attributes>(*s.scope.attributes);
   out->volume = true;

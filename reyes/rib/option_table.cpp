@@ -14,7 +14,7 @@ namespace {
 /// Sets the search path of a category, before and after the map of folders.
 void setMappedPath(GraphicsState& s, const Request& r, const std::string& category, const std::string& path) {
   Globals& g = s.globals;
-  // A scene renders from any folder.
+  // Relative folders also count from the scene's own folder, so that a scene renders from any folder.
   const std::string inPlace = alsoWithin(mappedPath(path, g.dirMap), r.where.folder().string());
   if (std::max(path.size(), inPlace.size()) > kLongestSearchPath)
     return s.warn(r, "rib-option",
@@ -30,7 +30,7 @@ int clampedInteger(GraphicsState& s, const Request& r, float value, float least,
 
 /// The option is read by its name in Options::user.
 bool readByName(GraphicsState&, const Request&, const Param&) { return true; }
-/// The name is known for its type alone.
+/// The name is in the table only for its type.
 bool withoutEffect(GraphicsState&, const Request&, const Param&) { return false; }
 
 bool bucketSize(GraphicsState& s, const Request& r, const Param& p) {
@@ -78,7 +78,7 @@ bool shutterOffset(GraphicsState& s, const Request&, const Param& p) {
   return true;
 }
 
-/// The word of BMRT. That of Tomales wins, wherever it stands: its parameter has another name.
+/// BMRT's name of the option. Tomales' own name takes precedence, in any order.
 bool prmanSpecular(GraphicsState& s, const Request&, const Param& p) {
   const auto [it, isNew] = s.globals.options.user.try_emplace("shade:specular");
   if (isNew || it->second.name == p.name) it->second = wordParam(p.name, p.number(0) != 0 ? "prman" : "rispec");

@@ -8,8 +8,8 @@
 namespace tomales::rib {
 
 struct NamedOption {
-  std::string_view name;                                      ///< "category:name"
-  const char* type;                                           ///< The type of a value that names none, as in Declare.
+  std::string_view name;  ///< "category:name"
+  const char* type;       ///< The type of a value without a declared type, as in Declare.
   bool (*set)(GraphicsState&, const Request&, const Param&);  ///< As setNamedOption().
 };
 

@@ -11,7 +11,7 @@
 namespace tomales::rib {
 namespace {
 
-// Binary junk is full of words; only these deserve a message each.
+// Tells whether an unknown word deserves a message: binary junk is full of words.
 bool looksLikeRequest(const std::string& word) {
   const auto alphanumeric = [](char c) { return std::isalnum(static_cast<unsigned char>(c)); };
   return word.size() >= 4 && std::isupper(static_cast<unsigned char>(word[0])) &&
@@ -234,8 +234,8 @@ bool Parser::readParameter(const std::string& category) {
   return true;
 }
 
-// A primitive variable has a class, which its values do not show. All else need not be declared: shaders, options and
-// attributes have types of their own, and bridges from modellers leave marks for themselves ("__instanceid").
+// A primitive variable has a class, which its values do not show. Other parameters need no declaration: shaders,
+// options and attributes have their own types, and exporters of modellers write private data ("__instanceid").
 bool Parser::valuesTellTypeOf(const std::string& token) const {
   const bool bare = token.find_first_of(" \t\r\n[]") == std::string::npos;
   return bare && (token.starts_with("__") || !isGeometry(request_.name));

@@ -1,5 +1,5 @@
-// Turns tokens into Requests. A request that is returned has the arguments that its signature says, and parameters that
-// fit their declarations; everything else has been reported with file and line, and skipped.
+// Turns tokens into Requests. A returned request has the arguments of its signature, and parameters that fit their
+// declarations. Everything else is reported with file and line, and skipped.
 #pragma once
 #include <optional>
 
@@ -18,11 +18,11 @@ class Parser {
   /// The dictionary must outlive the parser: it belongs to the whole stream, archives included.
   Parser(ByteStream& stream, std::string file, Dictionary& dictionary, Log& log);
 
-  /// Returns the next good request, or nothing at the end of the stream, or if so much made no sense that it gives up.
+  /// Returns the next good request; nothing at the end of the stream, or after kMostSenseless errors.
   std::optional<Request> next();
-  /// Moves to the end of the frame, without looking at its requests. Returns the number of worlds that begin there.
+  /// Skips to the end of the frame without parsing its requests. Returns the number of worlds that begin in it.
   int skipFrame();
-  /// Mutes messages in a branch of a condition that is not read: it may be for other renderers, and right for them.
+  /// Mutes messages. Used in a branch of a condition that is not read, because it may be meant for other renderers.
   void mute(bool muted) { muted_ = muted; }
 
  private:
@@ -44,14 +44,14 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
-  /// Tells whether the values show the type of the token, if its name is declared nowhere.
+  /// Tells whether the values show the type of a token whose name is not declared.
   bool valuesTellTypeOf(const std::string& token) const;
   static Param typedByValues(const std::string& name, Param values);
   /// Reads numbers into `ints` or `floats`, by the parameter's type.
   bool readValues(Param& param);
   size_t widthOf(const Param& param) const;  ///< Number of numbers in one written element.
   bool valuesFit(const Param& param) const;
-  /// Returns the same, with a message if they do not.
+  /// Returns valuesFit(), and reports if they do not.
   bool fitsDeclaration(const std::string& token, const Param& param) const;
 
   Lexer lexer_;

@@ -21,12 +21,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPollEvery_s = 0.1;  ///< A wish to stop wakes no poll.
+constexpr double kPollEvery_s = 0.1;  ///< A request to stop does not wake poll().
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Lets the shell become the program, so that a signal that ends one of them when we are killed (startChild()) ends the
-/// other. It cannot if the command is more than a program and its arguments; "exit" is the shell's own.
+/// Makes the shell exec the program, so that the signal that kills the child when we are killed (startChild()) ends the
+/// program itself. That is not possible if the command is more than a program and its arguments; "exit" is the shell's
+/// own.
 std::string forShell(const std::string& command) {
   const bool simple = command.find_first_of("|&;()<>`={}!\n") == std::string::npos && !command.starts_with("exit");
   return simple ? "exec " + command : command;
@@ -34,7 +35,7 @@ std::string forShell(const std::string& command) {
 
 }  // namespace
 
-// The program's input is a socket, as writing to a closed socket can be told not to raise SIGPIPE.
+// The program's input is a socket, because writes to a closed socket can be made not to raise SIGPIPE.
 Program::Program(const std::string& command) {
   int in[2], out[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) != 0) {
@@ -114,7 +115,7 @@ std::string Program::finish() {
   }
   if (info.si_pid == 0)
     return stopRequested() ? "was killed, because this program is to end" : "did not answer in time and was killed";
-  kill(-id_, SIGKILL);  // kills what it has left running; it can be no other's group before the wait
+  kill(-id_, SIGKILL);  // kills what it left running; before the wait no other group can have this id
   guard_.reset();
   int status = 0;
   waitpid(id_, &status, 0);

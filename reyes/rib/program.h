@@ -1,5 +1,5 @@
-// A program of the user's, run by the shell: it is asked by lines of text, and its output is read as it comes. It ends
-// at the latest with this object, which kills its whole process group.
+// A program of the user's, run by the shell. It gets requests as lines of text, and its output is read as it comes. It
+// ends at the latest with this object, which kills its whole process group.
 #pragma once
 #include <sys/types.h>
 
@@ -20,13 +20,14 @@ class Program {
   ~Program();
   Program(const Program&) = delete;
 
-  /// `patience_s`: the longest total time that read() waits for the answer.
+  /// Sends a request. `patience_s`: the longest total time that read() waits for the answer.
   void ask(std::string text, double patience_s);
-  /// Closes its input, which tells it that there will be no more questions.
+  /// Closes its input, which tells it that no more requests follow.
   void closeInput();
-  /// Returns 0 if it has closed its output, or if the patience is over.
+  /// Returns 0 if the program has closed its output, or if the time is over.
   size_t read(char* buffer, size_t size);
-  /// Waits for its end with the patience that is left, and returns what went wrong, or nothing. Pre: read() gave 0.
+  /// Waits for the program's end for the time that is left. Returns what went wrong; empty if nothing did. Pre: read()
+  /// has returned 0.
   std::string finish();
 
  private:
@@ -41,8 +42,8 @@ class Program {
   bool hung_ = false;
 };
 
-/// Programs that have answered wait here for the next question, so that each is started once, or once for each thread
-/// that needs it at the same time. Threads: calls may be concurrent.
+/// Programs that have answered wait here for the next request. So each is started once, or once for each thread that
+/// needs it at the same time. Threads: calls may be concurrent.
 class ProgramPool {
  public:
   std::unique_ptr<Program> take(const std::string& command);

@@ -44,12 +44,12 @@ class Reader {
   };
   /// One file, inline archive or program that is being read.
   struct Level {
-    std::string key, folder;  ///< The key is the same for the same archive; archives are looked for in the folder.
+    std::string key, folder;  ///< The key identifies the archive; further archives are looked for in the folder.
     Conditions conditions;
     std::optional<ArchiveRecording> recording;
   };
 
-  /// The state of the stream around a procedural, which it must know. Neighbours share it.
+  /// The state of the stream around a procedural, which its contents depend on. Neighbours share it.
   struct ProceduralContext {
     RibSettings settings;
     Log& log;
@@ -67,13 +67,14 @@ class Reader {
          std::shared_ptr<std::atomic<size_t>> budget);
 
   bool readTop(ByteStream& stream, const std::string& name);
-  /// Returns the number of good requests. Each costs `cost` of the budget, at whose end reading stops; 0 has no limit.
+  /// Returns the number of good requests. Each takes `cost` from the budget; reading stops when it is used up. With 0
+  /// there is no limit.
   size_t read(ByteStream& stream, const std::string& name, const std::string& key, const std::string& folder,
               size_t cost = 0);
   void enter(const std::string& key, const std::string& folder);
   void leave();
   void handle(const Request& request);
-  /// Passes over the rest of a frame that the request begins, if nobody wants it.
+  /// Skips the rest of the frame that the request begins, if the frame is not wanted.
   void skip(const Request& request, Parser& parser);
   void tellOfOutliving(const Request& request) const;
   void perform(const Request& request);
@@ -89,7 +90,7 @@ class Reader {
   void readArchiveNamed(const Request& request, const std::string& name);
   void readArchiveFile(const Request& request, const std::string& name);
   void replay(const Request& request, const std::string& name, const Requests& archive);
-  /// Returns false, and reports it, if it would read itself, or is too deep or too much.
+  /// Returns false, and reports it, if the archive would read itself, is nested too deeply, or exceeds the budget.
   bool mayEnter(const Request& request, const std::string& key, size_t cost);
   static std::shared_ptr<std::atomic<size_t>> newBudget();
   bool spend(size_t cost);
@@ -99,13 +100,13 @@ class Reader {
     if (settings_.onFile) settings_.onFile({kind, name, path, request.where});
   }
   std::vector<std::string> foldersFor(const char* category) const;
-  /// Searches along Option "searchpath" of that category. Returns an empty name if it is nowhere.
+  /// Searches along Option "searchpath" of that category. Returns an empty name if the file is not found.
   std::string findFile(const std::string& name, const char* category) const;
 
   // Procedurals and System, in reader_programs.cpp.
   void procedural(const Request& request);
   void procedural2(const Request& request);
-  /// Reads now, or as a Procedural of the scene when its bound is needed.
+  /// Reads now, or leaves it to a Procedural of the scene, which is opened when its bound is needed.
   void later(const Request& request, const std::function<void(Reader&)>& readNow);
   std::shared_ptr<const ProceduralContext> proceduralContext();
   void delayedArchive(const Request& request);
@@ -131,15 +132,15 @@ class Reader {
   SceneBuilder builder_;
   std::vector<Level> open_;  ///< The outermost level is first.
   InlineArchives inlineArchives_;
-  /// The remaining cost of the outermost archive or procedural: each request that is replayed costs one. Procedurals
-  /// within share it.
+  /// The cost that is left to the outermost archive or procedural; each replayed request costs one. Procedurals inside
+  /// share it.
   std::shared_ptr<std::atomic<size_t>> budget_;
   bool inProcedural_ = false;
   bool inFrame_ = false;
   std::shared_ptr<ProgramPool> programs_;
   std::shared_ptr<PluginPool> plugins_;
-  std::shared_ptr<const ProceduralContext> proceduralContext_;  ///< Null once it has changed.
-  char mark_ = 0;                                               ///< Marks variables in strings; 0 if there are none.
+  std::shared_ptr<const ProceduralContext> proceduralContext_;  ///< Null if the state has changed since it was made.
+  char mark_ = 0;  ///< The character that marks variables in strings; 0 if there is none.
   SourceLoc last_;
 };
 

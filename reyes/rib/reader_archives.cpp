@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Limits beyond what any scene needs: archives that double each other must end in a minute, not in a year.
+// Limits that no scene needs to exceed, so that archives that double each other end within a minute.
 constexpr size_t kBudget = 10'000'000, kFileCost = 10;
 constexpr size_t kReplayCost = 10;  ///< Cost of a request: most are objects, which take half a kilobyte each.
 
@@ -60,7 +60,7 @@ void Reader::endRecording() {
 void Reader::readArchiveNamed(const Request& r, const std::string& name) {
   const auto it = inlineArchives_.find(name);
   if (it == inlineArchives_.end()) return readArchiveFile(r, name);
-  const std::shared_ptr<const Requests> archive = it->second;  // keeps it if it redefines itself
+  const std::shared_ptr<const Requests> archive = it->second;  // keeps it alive if it redefines itself
   replay(r, name, *archive);
 }
 
@@ -147,7 +147,7 @@ std::vector<std::string> Reader::foldersFor(const char* category) const {
   return out;
 }
 
-// Looks along the search path first, then beside the file that reads, then where the caller says.
+// Looks along the search path first, then beside the reading file, then in the folders of RibSettings.
 std::string Reader::findFile(const std::string& written, const char* category) const {
   const std::string name = mapped(written, builder_.dirMap());
   std::error_code ignored;

@@ -1,5 +1,5 @@
-// Procedural "DynamicLoad". Calls of a plugin are recorded first and read after it has returned: so its code runs
-// alone, ours need not be reentrant, and the calls that it makes before it fails are kept.
+// Procedural "DynamicLoad". Calls of a plugin are recorded first and read after it has returned. So its code runs
+// alone, ours need not be reentrant, and calls before a failure are kept.
 #include <fmt/format.h>
 
 #include "reyes/base/crash_note.h"

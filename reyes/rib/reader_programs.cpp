@@ -8,7 +8,7 @@
 namespace tomales::rib {
 namespace {
 
-// Cost of a procedural within another, or within an archive: it keeps its surroundings in memory until it is opened.
+// Cost of a procedural within another, or within an archive: it keeps the state around it in memory until it is opened.
 constexpr size_t kProceduralCost = 20;
 constexpr size_t kProgramCost = 1000;
 constexpr size_t kAnswerCost = 10;  // cost of a request of a program: what it draws takes a kilobyte
@@ -55,7 +55,7 @@ void Reader::procedural(const Request& r) {
   later(r, [r, read](Reader& reader) { (reader.*read)(r); });
 }
 
-// The arguments are the subdivide function and the function that bounds it, then parameters: the data of the first.
+// The arguments are the subdivide function and the bound function, then parameters, which are the data of the former.
 void Reader::procedural2(const Request& r) {
   const std::string &kind = r.args[0].strings[0], &bounding = r.args[1].strings[0];
   const bool program = kind == "RunProgram2", plugin = kind == "DynamicLoad2";
@@ -98,7 +98,7 @@ void Reader::later(const Request& r, const std::function<void(Reader&)>& readNow
   auto budget = inProcedural_ || open_.size() > 1 ? budget_ : newBudget();
   if (budget == budget_ && !spend(kProceduralCost))
     return report(Severity::Missing, "rib-archive-recursion", r,
-                  "procedurals within procedurals or archives stand for too much; ignored");
+                  "procedurals within procedurals or archives stand for more than the limit; ignored");
   builder_.addProcedural(
       bound,
       [readNow, around = proceduralContext(), place = builder_.place(), budget] {

@@ -70,7 +70,7 @@ const std::unordered_map<std::string_view, std::string>& reasons() {
       {"Option bucket:orderorigin", "spirals begin in the middle"},
       {"Option trace:specularthreshold", "rays wider than 10 degrees are diffuse"},
       {"Option shutter:clampmotion", "dPdtime is that of the open shutter"},
-      {"Option shading:checknans", "what is no number is always reported"},
+      {"Option shading:checknans", "values that are NaN or infinite are always reported"},
       {"Option hair:minwidth", "thin curves keep their width"},
       {"Attribute dice:hair", kHair},
       {"Attribute dice:strategy", "the rate is measured where surfaces are in the picture"},

@@ -5,8 +5,7 @@
 
 namespace tomales::rib {
 
-/// The samples of a pixel that Hider "raytrace" may ask for at most: a path tracer asks for more than a Reyes hider
-/// needs.
+/// The most samples of a pixel that Hider "raytrace" may ask for: a path tracer asks for more than a Reyes hider needs.
 constexpr int kMostTracedSamples = 64;
 
 /// `what` is a request ("PixelVariance"), or "Option category:name", "Attribute category:name", "Hider name",

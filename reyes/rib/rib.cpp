@@ -50,8 +50,8 @@ class MakeSources : public RiSink {
   std::set<std::string> names;
 };
 
-/// Tells whether a file may hold Make requests other than MakeShadow, whose Displays are maps by their type. The bytes
-/// tell at a fraction of the cost of reading, in binary RIB too, which defines each name once.
+/// Tells whether a file may hold Make requests other than MakeShadow, whose Displays are maps by their type. A search
+/// of the bytes takes a fraction of the time of parsing, and works for binary RIB too, which contains each name once.
 bool mayMakeMaps(const std::string& file) {
   constexpr std::string_view kMake = "Make", kShadow = "Shadow";
   const auto stream = rib::ByteStream::open(file);

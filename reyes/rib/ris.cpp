@@ -43,7 +43,7 @@ Translation bxdf(const Request& r, RisState& state) {
 
 Translation pattern(const Request& r, RisState& state) {
   state.patterns[r.args[1].strings[0]] = r;
-  return {};  // the requests that refer to it report its fate
+  return {};  // the requests that refer to it report what becomes of it
 }
 
 Translation camera(const Request& r, RisState&) {

@@ -1,4 +1,4 @@
-// Translates requests of the RIS era of PRMan to requests that say nearly the same in terms of Tomales.
+// Translates requests of the RIS era of PRMan to nearly equivalent requests that Tomales knows.
 #pragma once
 #include <optional>
 
@@ -6,7 +6,7 @@
 
 namespace tomales::rib {
 
-/// Tells what was replaced by what; it is reported once for each key.
+/// A message about a replacement. It is reported once for each key.
 struct Note {
   std::string key, text;
   SourceLoc where;
@@ -34,12 +34,12 @@ struct RisState {
 bool isRis(const Request& request);
 /// Pre: isRis(request).
 Translation translateRis(const Request& request, RisState& state);
-/// Returns the lamp at the eye of PxrDefault, which lights a world without lights. PxrDefault is the Integrator where
-/// none is named. Empty if another one is, or if nothing has a Bxdf.
+/// Returns the lamp at the eye of PxrDefault, which lights a world without lights. PxrDefault is the Integrator unless
+/// the scene names one. Returns nothing if another one is named, or if nothing has a Bxdf.
 Translation headLamp(const RisState& state);
 
-/// Returns the name that Tomales has for the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its
-/// type; unknown sources stay as they are.
+/// Returns Tomales' name for the source of a channel ("normal Nn", "color lpe:C<RD>[<L.>O]"), without its type. An
+/// unknown source is returned unchanged.
 std::string risSource(const std::string& source);
 
 }  // namespace tomales::rib

@@ -9,7 +9,7 @@
 namespace tomales::rib {
 namespace {
 
-/// The parameters of a plug-in that stand for those of our shaders; null if it has no such parameter.
+/// The names of a plug-in's parameters that correspond to those of our shaders; null if it has no such parameter.
 struct Bxdf {
   const char* color;
   float grey;  ///< The default of that colour.
@@ -96,7 +96,7 @@ void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, s
         if (n.text.find("stands in") == std::string::npos) notes.push_back(std::move(n));
 }
 
-/// Returns the parameter with the index of refraction of a material that one sees through; null if it is opaque.
+/// Returns the name of the parameter with the index of refraction of a transparent material; null if it is opaque.
 const char* indexOf(const Request& r) {
   static const std::unordered_map<std::string_view, const char*> table = {{"PxrGlass", "ior"},
                                                                           {"PxrLMGlass", "eta"},
@@ -117,8 +117,8 @@ Translation glass(const Request& r, const char* index) {
   return {Script(r).say("Surface", {string("glass")}, std::move(params)).list(), {standsIn(r, "glass")}};
 }
 
-/// Returns the colour that a metal mirrors straight back: by Fresnel's equations for the index n and the absorption k,
-/// or as an artist's colours say.
+/// Returns the colour that a metal reflects at normal incidence, from Fresnel's equations for the index n and the
+/// absorption k, or from artistic colours.
 std::vector<float> metalColor(const Request& r, const Bxdf& b) {
   const auto fresnel = [](float n, float k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); };
   const auto physical = [&](const char* index, const char* absorption) {
@@ -138,8 +138,8 @@ std::vector<float> metalColor(const Request& r, const Bxdf& b) {
 /// The number of rays by which a point mirrors the scene.
 constexpr float kReflections = 4;
 
-/// Adds the parameters that `disney` takes over from its namesake. PxrSurface gives its specular lobe by the colour at
-/// normal incidence, of which disney's 1 is 0.08. RIS mirrors the scene in metals and coats.
+/// Adds the parameters that `disney` shares with PxrDisney. PxrSurface gives its specular lobe by the colour at normal
+/// incidence, which is 0.08 times disney's. RIS mirrors the scene in metals and coats.
 void addDisney(const Request& r, bool metal, ParamList& params) {
   const auto add = [&](const char* name, float value) { params.push_back(param(name, ValueType::Float, {value})); };
   static constexpr std::pair<const char*, const char*> same[] = {

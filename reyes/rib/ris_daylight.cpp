@@ -1,4 +1,4 @@
-// PxrEnvDayLight: computes the position of the sun, and makes a light each of sun and sky.
+// PxrEnvDayLight: computes the position of the sun, and makes one light for the sun and one for the sky.
 #include <cmath>
 
 #include "reyes/rib/ris_parts.h"
@@ -6,7 +6,7 @@
 namespace tomales::rib {
 namespace {
 
-/// Days before a month of a year without a leap day, which changes the sun's place by a quarter of a degree at most.
+/// Returns the day of the year, without a leap day, which would move the sun by a quarter of a degree at most.
 float dayOfYear(float month, float day) {
   static constexpr int kBefore[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
   return static_cast<float>(kBefore[static_cast<int>(std::clamp(month, 1.0f, 12.0f)) - 1]) + day;

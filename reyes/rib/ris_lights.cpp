@@ -15,7 +15,7 @@ ParamList emission(const Request& r) {
 
 namespace {
 
-// Lets geometry from here on emit, be black otherwise, and cast no shadow.
+// Makes geometry from here on emit light, and otherwise be black and cast no shadow.
 void sayEmitter(Script& script, const Request& r) {
   script.say("AreaLightSource", {string("arealight"), string(r.args[1].strings[0])}, emission(r));
   script.say("Surface", {string("constant")}).say("Color", {numbers({0, 0, 0})});
@@ -78,7 +78,7 @@ Translation stdLight(const Request& r, RisState& state) {
   return {{}, {note(r, "is not available and has no substitute: it is dark", Severity::Missing)}};
 }
 
-// Skies are not drawn. Those of the two other kinds are lights already.
+// Skies are not drawn as geometry. The skies of the two other kinds are lights already.
 Translation envSphere(const Request& r, const RisState& state) {
   if (!state.areaLight || !isStdAreaLight(*state.areaLight)) return {};
   Translation sky = domeLight(*state.areaLight);

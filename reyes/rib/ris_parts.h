@@ -1,4 +1,4 @@
-// Private to the translations of RIS requests: what they share.
+// Private to the translations of RIS requests: functions that they share.
 #pragma once
 #include "reyes/rib/arguments.h"
 #include "reyes/rib/ris.h"
@@ -49,7 +49,7 @@ Note standsIn(const Request& request, const std::string& substitute, Severity se
 
 Translation risBxdf(const Request& request, const Patterns& patterns);
 Translation risLight(const Request& request);
-/// AreaLightSource of PRMan 19 and 20, and Geometry "envsphere", the sky that one may be.
+/// Translate AreaLightSource of PRMan 19 and 20, and Geometry "envsphere", which makes one a sky.
 Translation stdLight(const Request& request, RisState& state);
 Translation envSphere(const Request& request, const RisState& state);
 /// Translates Option and Attribute "Ri".

@@ -1,4 +1,4 @@
-// Sources of DisplayChannels of the RIS era: names with a type before them, and light path expressions.
+// Sources of DisplayChannels of the RIS era, which are names after a type, and light path expressions.
 #include <unordered_map>
 
 #include "reyes/rib/ris.h"

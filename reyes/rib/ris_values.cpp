@@ -1,4 +1,4 @@
-// RenderMan 22 and later write what were requests of RISpec as parameters of Option and Attribute "Ri".
+// RenderMan 22 and later write former requests of RISpec as parameters of Option and Attribute "Ri".
 #include <fmt/format.h>
 
 #include <unordered_map>

@@ -26,7 +26,7 @@ bool usable(const std::vector<float>& numbers, bool infinityToo) {
                      [&](float f) { return std::isfinite(f) || (infinityToo && !std::isnan(f)); });
 }
 
-/// Pictures lie beside the scene, too; first in the working folder, since maps that a frame writes are there.
+/// Adds the folder of the scene, which may have pictures, after the working folder, where frames write maps.
 void addStandardPath(Scene& scene) {
   std::string& path = scene.options.searchPaths["texture"];
   const std::string own = scene.where.folder().string();
@@ -104,7 +104,7 @@ void SceneBuilder::perform(const Request& r) {
   state_.warnOnce(r.name, r, "rib-unsupported", r.name + " is not supported, ignored" + reasonFor(r.name));
 }
 
-// Lights are refused, because other objects that they light must know them before the first bucket.
+// Lights are refused, because other objects would have to know them before the first bucket.
 bool SceneBuilder::refuse(const Request& r) {
   static constexpr std::string_view kFrame[] = {"FrameBegin", "FrameEnd", "WorldBegin", "WorldEnd"};
   static constexpr std::string_view kLights[] = {"LightSource", "AreaLightSource", "Light"};

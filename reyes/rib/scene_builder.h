@@ -1,18 +1,18 @@
-// The RiSink that builds Scenes: it keeps blocks, motion, retained objects and the world; single requests and what they
-// do to the state are in handlers.h.
+// The RiSink that builds Scenes. It keeps blocks, motion, retained objects and the world; the effects of single
+// requests on the state are in handlers.h.
 #pragma once
 #include "reyes/rib/handlers.h"
 
 namespace tomales::rib {
 
-/// No NaN among the positional arguments, and no infinity where it has no meaning.
+/// Tells whether the positional arguments have no NaN, and no infinity where it has no meaning.
 bool usableArguments(const Request& request);
 
 class SceneBuilder : public RiSink {
  public:
   SceneBuilder(const RibSettings& settings, Log& log) : settings_(settings), state_(log) {}
 
-  /// The state that is the same for all that is inside a world. A LocalState is the state that changes there.
+  /// The state that stays the same inside of a world. A LocalState is the state that changes there.
   struct StreamState {
     Globals globals;
     World world;
@@ -21,7 +21,7 @@ class SceneBuilder : public RiSink {
     Scope scope;
     Motion identity;
   };
-  /// Builds the contents of a procedural: a world of its own, with the state of another.
+  /// Builds the contents of a procedural: a world of its own, with the state around the procedural.
   SceneBuilder(const RibSettings& settings, Log& log, const StreamState& around, const LocalState& place);
 
   void request(const Request& request) override;
@@ -41,7 +41,8 @@ class SceneBuilder : public RiSink {
   const Options& options() const { return state_.globals.options; }
   const Attributes& attributes() const { return *state_.scope.attributes; }
   const DirMap& dirMap() const { return state_.globals.dirMap; }
-  /// Pixels that a box in object space (xmin xmax ymin ymax zmin zmax) may cover; all, if the box is not finite.
+  /// Returns the number of pixels that a box in object space (xmin xmax ymin ymax zmin zmax) may cover; all, if the box
+  /// is not finite.
   float rasterArea(const std::vector<float>& bound) const;
 
  private:
@@ -57,14 +58,14 @@ class SceneBuilder : public RiSink {
     std::shared_ptr<Master> master = std::make_shared<Master>();
   };
 
-  /// Returns true, and reports it once, if it belongs to the edits of re-rendering.
+  /// Returns true, and reports it once, if the request belongs to an edit of re-rendering.
   bool isEdit(const Request& request);
   void record(const Request& request);
   void step(const Request& request);
   void perform(const Request& request);
-  /// Returns true, and reports it, if it has no place in a procedural.
+  /// Returns true, and reports it, if the request is not allowed in a procedural.
   bool refuse(const Request& request);
-  /// Performs what changes more than the graphics state. Returns false if the request is none of those.
+  /// Performs a request that changes more than the graphics state. Returns false if it is none of those.
   bool performBlock(const Request& request);
   bool performHandler(const Request& request);
   void performTranslation(const Translation& translation);

@@ -1,5 +1,5 @@
-// Changes to a scene whose geometry is settled: shaders, lights and attributes, addressed by the names of objects and
-// the handles of lights.
+// Changes to a scene with fixed geometry: shaders, lights and attributes, addressed by the names of objects and the
+// handles of lights.
 #include "reyes/rib/handlers.h"
 
 namespace tomales {

@@ -13,8 +13,8 @@ class ByteStream {
  public:
   using Source = std::function<size_t(char* buffer, size_t size)>;  ///< Returns 0 at the end.
   static constexpr int kEnd = -1;
-  /// Compressed data is a bomb if it unpacks to more than the first number, and to more than the second number times
-  /// its own size.
+  /// Compressed data is a bomb if it unpacks to more than kHarmless_bytes, and to more than kLargestRatio times its own
+  /// size.
   static constexpr size_t kHarmless_bytes = size_t{64} << 20, kLargestRatio = 200;
 
   /// Returns null if `path` cannot be opened or is a folder. "-" is standard input, "a.zip!b.rib" a member of a zip
@@ -43,7 +43,7 @@ class ByteStream {
     closed_ = true;
   }
   bool closed() const { return closed_; }
-  /// Returns true if the compressed data broke off, made no sense or was a bomb; the bytes before that have been read.
+  /// Returns true if the compressed data was cut off, invalid or a bomb; the bytes before that have been read.
   bool damaged() const { return damaged_; }
   /// Says which of these it was. Pre: damaged().
   std::string damage() const;

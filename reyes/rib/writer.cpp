@@ -167,8 +167,8 @@ class Writer : public RiSink {
     }
   }
 
-  // A parameter that was written bare stays bare. A name with blanks or brackets cannot be declared inline: its Declare
-  // is among the requests.
+  // A parameter that was written without a declaration stays so. A name with blanks or brackets cannot be declared
+  // inline: its Declare is among the requests.
   void parameter(const Param& p, const Request& r) {
     const bool inlined = p.arrayLength > 0 && p.name.find_first_of(" \t\r\n[]") == std::string::npos;
     const auto reference =

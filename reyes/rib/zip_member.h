@@ -6,10 +6,11 @@
 
 namespace tomales::rib {
 
-/// Returns the part before the '!' if that is a file, else an empty name.
+/// Returns the part before the '!' if that is a file, and an empty name otherwise.
 std::string zipOf(const std::string& path);
 
-/// Reads bytes of a member; 0 at its end. kBrokenZip if the rest cannot be unpacked, or is not what was packed.
+/// Reads bytes of a member. Returns 0 at its end, and kBrokenZip if the rest cannot be unpacked or its checksum is
+/// wrong.
 using ZipSource = std::function<size_t(char* buffer, size_t size)>;
 constexpr size_t kBrokenZip = static_cast<size_t>(-1);
 

@@ -11,8 +11,8 @@ namespace {
 
 struct Row {
   /// The declaration as RSL writes it: "result name(types)". T stands for each of float, color, point, vector and
-  /// normal in turn, V for each of the four triples, `any` for every type; `out` is assigned; ... stands for
-  /// Builtin::more.
+  /// normal in turn, V for each of the four triples, and `any` for every type; `out` marks an argument that is
+  /// assigned; ... stands for Builtin::more.
   const char* signature;
   Op op = Op::Copy;
   Emit emit = Emit::Instruction;

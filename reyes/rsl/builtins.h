@@ -1,6 +1,6 @@
 // RSL's built-in functions: one table of their names and types, and of the instructions that they become. The checker
-// chooses among its rows, the lowering reads what to emit, and a test compares docs/rsl_reference.md with it. Functions
-// that are simpler to write in RSL itself are in the prelude (prelude.cpp).
+// chooses among its rows, the lowering reads from it what to emit, and a test compares docs/rsl_reference.md with it.
+// Functions that are simpler to write in RSL itself are in the prelude (prelude.cpp).
 #pragma once
 #include <span>
 #include <string>
@@ -55,8 +55,8 @@ struct Builtin {
   const TmFunction* plugin = nullptr;  ///< Null for a function of the language.
 };
 
-/// Makes the row of a plugin's function. There is none if its prototype cannot be read, or names a type that functions
-/// of plugins cannot have.
+/// Makes the row of a plugin's function. Returns nothing if its prototype cannot be read, or names a type that plugin
+/// functions cannot have.
 std::optional<Builtin> builtinOf(const TmFunction& function);
 
 /// Returns all rows. Those of one name are together.

@@ -236,7 +236,7 @@ void Checker::returned(Stmt& s) {
   }
 }
 
-// Functions are inlined, so one that calls itself, through whatever others, has no code (RISpec 12.3 refuses it too).
+// Functions are inlined, so recursion, also through other functions, is impossible (RISpec 12.3 forbids it too).
 void Checker::refuseRecursion() {
   std::set<const Function*> done, open;
   const auto visit = [&](const auto& self, const Function* f) -> void {

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Returns how far an argument's type is from the slot of a built-in function. Negative if it does not suit the slot.
+/// Returns the distance of an argument's type from the slot of a built-in function; negative if it does not fit.
 int suits(const Slot& slot, const Expr& e, int far) {
   if (e.type == kUnknown) return 0;
   if (slot.any) return !slot.array || e.type.isArray() ? 0 : -1;
@@ -90,7 +90,7 @@ std::vector<const Function*> Checker::functionsOf(std::string_view name) const {
   return out;
 }
 
-// A function of the file comes before a built-in one of the same name, if the arguments suit it.
+// A function of the file takes precedence over a built-in one of the same name, if the arguments fit.
 Type Checker::typeOfCall(Expr& e) {
   for (const ExprPtr& a : e.args) type(*a);
   const std::vector<const Function*> own = functionsOf(e.text);
@@ -217,7 +217,7 @@ bool isFilled(std::string_view function, std::string_view name) {
   return false;
 }
 
-// evalparam("name", x) of PRMan 19 and 20 assigns a parameter of the shader, which a pattern may drive there, to x.
+// evalparam("name", x) of PRMan 19 and 20 assigns to x a parameter of the shader, which a pattern may drive there.
 bool Checker::becomesParameter(Expr& e) {
   if (e.text != "evalparam" || e.args.size() != 2 || e.args[0]->kind != ExprKind::String ||
       (e.args[1]->kind != ExprKind::Name && e.args[1]->kind != ExprKind::Index))

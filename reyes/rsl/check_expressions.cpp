@@ -185,8 +185,8 @@ Type Checker::typeOfCast(Expr& e) {
   return e.written;
 }
 
-// RISpec 15 chooses among functions of one name by the type of result that is wanted. That type goes down through
-// arithmetic to such functions: in `point Q = P + .1 * noise(P)` noise gives a point.
+// RISpec 15 chooses among functions of one name by the type of the result that is needed. That type is passed down
+// through arithmetic: in `point Q = P + .1 * noise(P)` noise returns a point.
 void Checker::retarget(Expr& e, const Type& wanted) {
   if (e.type == kUnknown || wanted == kUnknown) return;
   switch (e.kind) {
@@ -244,7 +244,8 @@ void Checker::retarget(Expr& e, const Type& wanted) {
   }
 }
 
-// N * noise(P) moves points along N: beside a triple, noise is meant as a number. The colour of a picture is not.
+// N * noise(P) moves points along N: as a factor of a triple, noise means a number. The colour of a picture stays a
+// colour.
 void Checker::retargetFactor(Expr& e, const Type& wanted) {
   if (e.kind == ExprKind::Tuple || e.type.isTriple()) return retarget(e, wanted);
   if (e.kind != ExprKind::Call || !e.builtin || !wanted.is(Base::Color)) return;

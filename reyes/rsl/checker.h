@@ -41,10 +41,10 @@ class Checker {
   // --- check_expressions.cpp
   /// Returns the type that the expression has on its own.
   Type type(Expr& e);
-  /// Does the same where a value of the type `wanted` is needed: picks the overload with that result, and reports what
-  /// does not convert.
+  /// Checks an expression where a value of the type `wanted` is needed. It picks the overload with that result, and
+  /// reports an expression that does not convert.
   void expect(Expr& e, const Type& wanted, const char* where);
-  /// Gives the expression the type `wanted`, as far as it can be of another type.
+  /// Changes the expression's type to `wanted` if it can have that type.
   void retarget(Expr& e, const Type& wanted);
   void retargetFactor(Expr& e, const Type& wanted);
   Type typeOfName(Expr& e);
@@ -55,7 +55,7 @@ class Checker {
   Type typeOfConditional(Expr& e);
   Type typeOfAssign(Expr& e);
   Type typeOfCast(Expr& e);
-  /// Marks the variable that an assignment to the expression changes. Reports it if there is none.
+  /// Marks the variable that an assignment to the expression changes. Reports an expression that is not assignable.
   void assigned(Expr& e, const char* where);
   int distance(const Expr& e, const Type& to) const;  ///< Negative if it does not convert.
 
@@ -85,7 +85,8 @@ class Checker {
   std::deque<Builtin>* const pluginRows_;
   const File* const prelude_;
   const RslFunctions* const plugins_;
-  std::map<std::string, std::vector<const Builtin*>> plugged_;  ///< The rows of names that plugins were asked for.
+  std::map<std::string, std::vector<const Builtin*>>
+      plugged_;  ///< Rows of plugin functions, for names that were looked up there.
   Messages& messages_;
   std::vector<Scope> scopes_;
   const Function* current_ = nullptr;  ///< Null in the body of a shader.

@@ -21,10 +21,10 @@ enum class Origin : uint8_t {
   Variable,   ///< Written by any number of instructions.
   Constant,   ///< Its value is in `floats` or `texts`.
   Global,     ///< `name` is a global of the shader's kind (globals.h); the register holds the batch's value at first.
-  Parameter,  ///< `index` is that in Code::parameters; the register holds the parameter's value at first.
+  Parameter,  ///< `index` is an index in Code::parameters; the register holds the parameter's value at first.
 };
 
-/// Limits what a text may be at run time, in bytes.
+/// The most bytes of a text at run time.
 inline constexpr size_t kLongestText = 1 << 20;
 
 struct Register {
@@ -68,7 +68,7 @@ struct Parameter {
   std::string name;
   Type type;
   Detail detail = Detail::Unstated;
-  bool output = false;        ///< True if the host only takes its value, a number or triple, and gives none.
+  bool output = false;        ///< True if the host only reads its value, a number or triple, and sets none.
   std::vector<float> floats;  ///< The default in shader space, if it is constant.
   std::vector<std::string> texts;
   bool beginsOutput = false;  ///< See kBeginsOutput in reyes/rsl_host.h.
@@ -86,7 +86,7 @@ struct Code {
   std::vector<Parameter> parameters;
   std::vector<const Builtin*> plugins;  ///< The functions that Op::Plugin calls.
   Block body;
-  size_t defaults = 0;  ///< So many instructions at the beginning of `body`, as it was lowered, give parameters values.
+  size_t defaults = 0;  ///< Number of instructions at the beginning of `body`, as lowered, that give parameters values.
   int32_t labels = 0;
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
@@ -95,7 +95,7 @@ struct Code {
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };
 
-/// Prints one instruction a line, indented, with registers by number and name.
+/// Returns one line for each instruction, indented, with registers by number and name.
 std::string dump(const Code& code);
 
 }  // namespace tomales::compiler

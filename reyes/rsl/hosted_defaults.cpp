@@ -10,7 +10,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Tells whether the code gives the same for all points of all scenes.
+/// Tells whether the code gives the same value for all points of all scenes.
 bool isFixed(const Code& code) {
   bool fixed = true;
   forEach(code.body, [&](const Instruction& i) {
@@ -21,7 +21,7 @@ bool isFixed(const Code& code) {
   return fixed;
 }
 
-/// A grid of one point for code that asks nothing of it but to report.
+/// A grid of one point for code that needs nothing of it except report().
 struct LonePoint {
   explicit LonePoint(const TmValue* params) {
     services.report = [](void*, const TmGrid*, int32_t, const char*) {};

@@ -38,7 +38,7 @@ int32_t typeOf(const Parameter& p) {
   return type;
 }
 
-/// Returns the parameters that a light's shadow() reads as shadow maps: the host wants to know them.
+/// Returns the parameters that a light's shadow() reads as shadow maps, which the host needs to know.
 std::vector<bool> shadowMaps(const Code& code) {
   std::vector<bool> out(code.parameters.size(), false);
   if (code.kind != ShaderKind::Light) return out;
@@ -128,7 +128,7 @@ void HostedShader::declareParameters() {
   }
 }
 
-/// Declares the parameters of a light with an extent, for which the language has no words.
+/// Declares the parameters of a light with an extent, which the language cannot declare.
 void HostedShader::declareExtent() {
   static constexpr float kSamples = kDefaultLightSamples, kNo = 0;
   declareForHost("__samples", TM_ROLE_SAMPLES, &kSamples);

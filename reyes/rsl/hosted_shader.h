@@ -1,6 +1,5 @@
-// A shader of a .sl file as the host sees it. Its code is made once for each set of parameters that primitive variables
-// give, so that what does not vary is computed once for a batch.
-// Threads: any number may call shade().
+// A shader of a .sl file as the host sees it. Its code is optimised once for each set of parameters that primitive
+// variables give, so that values that do not vary are computed once for a batch. Threads: any number may call shade().
 #pragma once
 #include <map>
 #include <memory>
@@ -21,7 +20,7 @@ class HostedShader {
 
   /// Returns null if the host has no shaders of this kind.
   const TmShader* host() const { return code().kind == ShaderKind::Transformation ? nullptr : &host_.shader; }
-  /// Tells whether a light asks where it stands, so that it can be lowered onto the geometry of AreaLightSource.
+  /// Tells whether a light reads its own place, so that it can be lowered onto the geometry of AreaLightSource.
   bool canBeOnGeometry() const;
   void setAreaForm(std::unique_ptr<const HostedShader> form) { area_ = std::move(form); }
   /// Returns the form of a light that AreaLightSource runs, or null.
@@ -35,12 +34,12 @@ class HostedShader {
   /// These two are rslValue() and rslFixedValue() (reyes/rsl_host.h). Pre: computes(parameter).
   RslValue value(size_t parameter, const TmGrid& grid) const;
   std::optional<RslValue> fixedValue(size_t parameter, const TmValue* params) const;
-  /// Returns the part that moves the points of a surface that assigns P (passes/moving.cpp). Null if nothing does.
+  /// Returns the part of a surface that assigns P, as a displacement (passes/moving.cpp); null if the shader does not.
   const HostedShader* displacement() const { return displacement_.get(); }
 
  private:
   static void shade(const TmGrid* grid);
-  /// Tells of each parameter whether it varies. Empty if none does.
+  /// Returns for each parameter whether it varies; empty if none does.
   std::vector<bool> varyingOf(const TmValue* params) const;
   const Program& programFor(const TmGrid& grid) const;
   const Program& defaultProgram(size_t parameter, const TmValue* params) const;
@@ -61,7 +60,7 @@ class HostedShader {
   struct Hosted {
     TmShader shader{};
     const HostedShader* owner = nullptr;
-  } host_;  ///< The host knows its first member, by whose address shade() finds the rest.
+  } host_;  ///< The host has the address of the first member, by which shade() finds the rest.
   std::unique_ptr<const HostedShader> area_;  ///< areaForm(), or null.
 };
 

@@ -18,11 +18,11 @@ struct Lanes {
   int32_t component = 0;  ///< 0 if one number stands for every component.
 };
 
-/// Reads `in` (as many as the signature says) and writes `out` in `blocks` blocks. Only where the instruction is
-/// componentwise may `out` be the same memory as an input; otherwise they must not overlap. A componentwise kernel does
-/// one component: the machine calls it for each. Component 4 * row + column of a matrix is the number in that row and
-/// column. An index that is NaN counts as 0. Noise and functions built of arithmetic alone have the bits of
-/// reyes/shader's functions of one point; transcendental functions are within 0.54 ulp (kernels/transcendental.h).
+/// Reads the inputs `in` of the signature and writes `out`, for `blocks` blocks. If the instruction is componentwise,
+/// `out` may be the memory of an input; otherwise they must not overlap. A componentwise kernel computes one component:
+/// the machine calls it for each. Component 4 * row + column of a matrix is the number in that row and column. An index
+/// that is NaN counts as 0. Noise and functions built of arithmetic alone have the bits of reyes/shader's functions of
+/// one point; transcendental functions are within 0.54 ulp (kernels/transcendental.h).
 using Kernel = void (*)(int blocks, const Lanes& out, const Lanes* in);
 
 /// Returns null where the table (ops.h) leaves the instruction to the machine.

@@ -6,8 +6,8 @@
 
 namespace tomales::compiler {
 
-/// check() must have found no errors. Errors that only show here (for instance a variable that this kind of shader does
-/// not have) go to `messages`. P and N of a light are the origin and the z axis of its space; with `onGeometry` they
+/// check() must have found no errors. Errors that only show here go to `messages`, for instance a variable that this
+/// kind of shader does not have. P and N of a light are the origin and the z axis of its space; with `onGeometry` they
 /// are a point of the geometry of AreaLightSource and its normal, which the host gives.
 Code lower(const Checked& checked, const Shader& shader, Messages& messages, bool onGeometry = false);
 

@@ -129,13 +129,14 @@ int32_t Lowering::plugin(const Expr& e, const Builtin& b) {
 
 int32_t Lowering::calculatedNormal(const Expr& e, const Builtin&) { return normalOf(value(*e.args[0])); }
 
-// A surface's normal follows from steps, which the passes derive; for a displacement the host differences its grid.
+// A surface's normal follows from steps, which the passes derive; for a displacement the host takes differences on its
+// grid.
 int32_t Lowering::normalOf(int32_t position) {
   if (code_.kind == ShaderKind::Displacement) return compute(Op::CalculateNormal, {position});
   const int32_t across = compute(
       Op::Cross, {compute(Op::StepU, {position}, Shape::Triple), compute(Op::StepV, {position}, Shape::Triple)});
   // A shader cannot know which way dPdu ^ dPdv points, so the normal is put on the side of the geometric one. Steps are
-  // dPdu du and dPdv dv, and of a polygon, whose u and v are its x and y, du or dv may be a rounding error of any sign.
+  // dPdu du and dPdv dv. On a polygon, whose u and v are its x and y, du or dv may be a rounding error of either sign.
   const auto edge = [&](Global derivative, Global size) {
     return compute(Op::Mul, {global(derivative), global(size)}, Shape::Triple);
   };
@@ -199,7 +200,7 @@ int32_t Lowering::withList(const Expr& e, const Builtin& b) {
       }
     in.insert(in.begin(), file);
   } else if (b.slots[0].base == Base::String && b.op == Op::Occlusion) {
-    in.erase(in.begin());  // a map made by another renderer, in whose place rays are traced
+    in.erase(in.begin());  // a map of another renderer, which is replaced by traced rays
   } else if (b.emit == Emit::Traced && in.size() == 2) {
     constexpr float kRays = 64;  // used where neither an argument nor the list says how many
     in.push_back(number(kRays));

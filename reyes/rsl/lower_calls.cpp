@@ -80,7 +80,7 @@ int32_t Lowering::inlineWithReturns(const Function& f) {
 int32_t Lowering::inlined(const Expr& e, const Function& f) {
   const auto after = bindArguments(e, f);
   const auto nothing = [&] { return shapeOf(f.result) == Shape::Text ? text("") : number(0); };
-  if (!hasRoom()) return nothing();  // functions that call two of the next one double the code with each
+  if (!hasRoom()) return nothing();  // functions that each call the next one twice double the code
   const int returns = returnsIn(*f.body);
   const bool straight = returns == 0 || (returns == 1 && f.body->body.back()->kind == StmtKind::Return);
   const int32_t result = straight ? inlineStraight(f) : inlineWithReturns(f);

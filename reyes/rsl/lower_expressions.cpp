@@ -174,7 +174,7 @@ int32_t Lowering::binary(const Expr& e) {
   std::vector<int32_t> in = values({e.args[0].get(), e.args[1].get()}, {wanted});
   if (e.text == ">" || e.text == ">=") std::swap(in[0], in[1]);
   if (e.text == "/" && operation->op == Op::MatrixProduct) in[1] = compute(Op::MatrixInverse, {in[1]});
-  // Numbers in a product that the context wants as a triple stay numbers.
+  // In a product that the context needs as a triple, numbers stay numbers.
   const bool triple = shape(in[0]) == Shape::Triple || shape(in[1]) == Shape::Triple;
   const bool matrix = shape(in[0]) == Shape::Matrix || shape(in[1]) == Shape::Matrix;
   const int32_t out = compute(operation->op, in, matrix ? Shape::Matrix : triple ? Shape::Triple : Shape::Number);

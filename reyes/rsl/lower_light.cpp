@@ -1,4 +1,4 @@
-// Light: illuminance and gather, which are loops, and the statements by which light shaders tell where they shine.
+// Light: illuminance and gather, which are loops, and the statements by which light shaders state where they shine.
 #include <algorithm>
 #include <iterator>
 
@@ -94,8 +94,8 @@ void Lowering::illuminate(const Stmt& s) {
   const int32_t ray = compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple);
   const bool cone = s.exprs.size() > 1;
   int32_t direction = ray;
-  // Where one cone of several does not shine, another one's direction stays. Where there is none yet, L has to be some
-  // direction all the same, as surfaces divide by its length.
+  // Where one of several cones does not shine, another one's direction stays. If there is none yet, L still needs a
+  // direction, because surfaces divide by its length.
   if (cone && shinesFromMany_)
     direction = compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
   copy(L, direction);

@@ -10,8 +10,9 @@ std::pair<int32_t, int32_t> Lowering::picture(const Expr& e) {
   return {file, value(*e.args[1])};
 }
 
-// The region is what the micropolygon covers: the host knows it if s and t are the surface's own, and where a surface
-// has computed them, their steps tell. Four corners become the parallelogram with their middle and their mean sides.
+// The region is what the micropolygon covers. The host knows it if s and t are the surface's own; if the shader has
+// computed them, it follows from their steps. Four corners become the parallelogram with their middle and their mean
+// sides.
 int32_t Lowering::texture(const Expr& e, const Builtin& b) {
   const auto [file, channel] = picture(*e.args[0]);
   std::vector<int32_t> at;
@@ -53,7 +54,7 @@ int32_t Lowering::texture(const Expr& e, const Builtin& b) {
   return out;
 }
 
-// Four directions become their middle, and the cone around it that holds them.
+// Four directions become their middle and the cone around it that contains them.
 int32_t Lowering::environment(const Expr& e, const Builtin& b) {
   const auto [file, channel] = picture(*e.args[0]);
   std::vector<int32_t> directions;

@@ -10,7 +10,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Returns the default without a cast to shader space, which is meant anyway.
+/// Returns the default without a cast to shader space, which defaults are in anyway.
 const Expr& inShaderSpace(const Expr& e) {
   const bool spatial = e.written.isTriple() && e.written.base != Base::Color;
   return e.kind == ExprKind::Cast && e.text == "shader" && spatial ? *e.args[0] : e;
@@ -64,8 +64,8 @@ void Lowering::shader(const Shader& s) {
                       "gives the direction");
 }
 
-// RISpec leaves open what Ci and Oi hold at first. Here Oi is Os. Ci is Cs in shaders that never assign it, and black
-// in others, as it is in PRMan: many shaders begin with Ci +=.
+// RISpec leaves open what Ci and Oi hold at first. Here Oi is Os. Ci is Cs in shaders that never assign it and black in
+// all others, as in PRMan, because many shaders begin with Ci +=.
 void Lowering::beginColor() {
   const int32_t Ci = global(Global::Ci);
   bool assigned = false;
@@ -78,8 +78,8 @@ void Lowering::beginColor() {
   code_.body.insert(code_.body.end(), std::make_move_iterator(body.begin()), std::make_move_iterator(body.end()));
 }
 
-// Shaders of rings assign Oi = 0 alone where nothing is to be seen (RenderMan Companion, listing 16.26), and Cs must
-// not shine there.
+// Shaders of rings assign nothing but Oi = 0 where they are invisible (RenderMan Companion, listing 16.26), and Cs must
+// not show there.
 void Lowering::hideUncoloured() {
   const int32_t Ci = global(Global::Ci), Oi = global(Global::Oi);
   bool clears = false;
@@ -89,8 +89,8 @@ void Lowering::hideUncoloured() {
   copy(Ci, compute(Op::Select, {hidden, black, Ci}, Shape::Triple));
 }
 
-// The host cannot give a value to a parameter that it writes (TM_OUTPUT). So an output becomes two parameters of one
-// name, and starts as the one that is given.
+// The host cannot give a value to a parameter that the shader writes (TM_OUTPUT). So an output becomes two parameters
+// of one name, and starts with the value of the one that is given.
 void Lowering::parameter(const Variable& v) {
   const bool stored = v.output && !v.type.isArray() && !v.type.is(Base::Matrix) && !v.type.is(Base::String);
   const int32_t output = stored ? outputParameter(v) : -1;
@@ -178,7 +178,7 @@ bool Lowering::constantDefault(const Variable& v, Parameter& p) {
   return constants;
 }
 
-// A scene may give the first elements of an array alone, so the last one tells whether any is missing.
+// A scene may give only the first elements of an array, so the last one shows whether any is missing.
 void Lowering::computedDefault(const Variable& v, int32_t reg) {
   if (!v.type.isArray()) return ifElse(isMissing(reg), block([&] { copy(reg, value(*v.initial, v.type)); }), {});
   const int32_t whole = add({.shape = shape(reg), .origin = Origin::Variable, .length = v.type.length});

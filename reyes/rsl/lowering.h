@@ -23,15 +23,15 @@ class Lowering {
   int32_t text(const std::string& value);
   int32_t constant(Shape shape, std::vector<float> floats);
   int32_t global(Global g);
-  int32_t variable(const Variable& v);  ///< Makes a register that stands for the variable from now on.
+  int32_t variable(const Variable& v);  ///< Makes a register for the variable, which stands for it from now on.
   /// Counts an instruction or an inlined function. Returns false, after one report, if there are too many.
   bool hasRoom();
   Instruction& emit(Op op, std::vector<int32_t> out, std::vector<int32_t> in);
   /// Emits an instruction with one result, of its signature's shape (of `shape` if that is `*`).
   int32_t compute(Op op, std::vector<int32_t> in, Shape shape = Shape::Number);
   void copy(int32_t to, int32_t from);        ///< Writes the active points.
-  void initialise(int32_t to, int32_t from);  ///< Writes all points: no other value is there yet.
-  /// Emits into a block of its own what `body` emits.
+  void initialise(int32_t to, int32_t from);  ///< Writes all points, because the register has no value yet.
+  /// Returns a block of the instructions that `body` emits.
   template <class Body>
   Block block(const Body& body);
   Shape shape(int32_t reg) const { return code_.registers[static_cast<size_t>(reg)].shape; }
@@ -56,14 +56,14 @@ class Lowering {
   void loop(const Expr* condition, const Stmt& body, const Expr* step);
   void jump(const Stmt& s);
   // --- lower_light.cpp
-  /// Runs `body` within labels to which its `break` and `continue` may go.
+  /// Runs `body` inside the labels that its `break` and `continue` leave.
   template <class Body>
   void breakable(const Stmt& within, const Body& body);
   int32_t condition(const Expr& e);
 
   void illuminance(const Stmt& s);
   void illuminate(const Stmt& s);
-  /// Returns how many places from which a light shines may count at one point; those of a loop count twice.
+  /// Returns how many illuminate() or solar() may light one point; those in a loop count twice.
   static int lightsOf(const Stmt& s);
   static int lightsOf(const Expr& e);
   void solar(const Stmt& s);
@@ -74,7 +74,7 @@ class Lowering {
   /// Returns the register of the expression's value as the type `wanted`. A number stays a number where a triple is
   /// wanted, since it counts for all components; where a matrix is wanted, it becomes one.
   int32_t value(const Expr& e, const Type& wanted);
-  /// Returns a number that stands for a triple, as a triple: for what reads each component by itself.
+  /// Returns a triple of a number that stands for one, for instructions that read each component by itself.
   int32_t widened(int32_t reg, const Type& type);
   /// Evaluates the list in order. Values that a later expression may change are copied.
   std::vector<int32_t> values(const std::vector<const Expr*>& list, const std::vector<Type>& wanted);
@@ -95,10 +95,10 @@ class Lowering {
   // --- lower_calls.cpp
   int32_t call(const Expr& e);
   int32_t inlined(const Expr& e, const Function& f);
-  /// Lets the parameters of a function stand for the arguments of a call. Returns what must be stored after it.
+  /// Binds the parameters of a function to the arguments of a call. Returns what must be stored after the call.
   std::vector<std::pair<const Expr*, int32_t>> bindArguments(const Expr& e, const Function& f);
   // Both return the register of the function's value, or -1 if it has none.
-  int32_t inlineStraight(const Function& f);  ///< Pre: it returns at its very end alone, so that no label is needed.
+  int32_t inlineStraight(const Function& f);  ///< Pre: it returns only at its very end, so that no label is needed.
   int32_t inlineWithReturns(const Function& f);
 
   // --- lower_builtins.cpp
@@ -126,14 +126,14 @@ class Lowering {
   int32_t texture(const Expr& e, const Builtin& b);
   int32_t environment(const Expr& e, const Builtin& b);
   int32_t shadow(const Expr& e, const Builtin& b);
-  /// Lowers the file name, and the channel that stands in brackets behind it.
+  /// Lowers the file name, and the channel in brackets after it.
   std::pair<int32_t, int32_t> picture(const Expr& e);
 
   Code& code_;
   Messages& messages_;
   Block* block_;
   bool shinesFromMany_ = false;  ///< Several illuminate() or solar() of this light may reach one point.
-  int32_t depth_ = 0;            ///< The number of control structures around.
+  int32_t depth_ = 0;            ///< The number of enclosing control structures.
   int instructions_ = 0;
   std::map<const Variable*, int32_t> registers_;
   std::map<float, int32_t> numbers_;

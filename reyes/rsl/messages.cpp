@@ -7,8 +7,8 @@
 namespace tomales::compiler {
 namespace {
 
-constexpr size_t kMostShown = 200;  ///< The shown characters of a line, around the place if it is longer.
-constexpr int kMostNotes = 8;       ///< The shown notes on macros within macros, and on files; the outermost always is.
+constexpr size_t kMostShown = 200;  ///< Most characters of a line that are shown, around the place of the message.
+constexpr int kMostNotes = 8;  ///< Most notes on nested macros and on files that are shown; the outermost always is.
 
 const char* name(Severity severity) {
   switch (severity) {

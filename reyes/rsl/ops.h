@@ -7,13 +7,13 @@
 namespace tomales::compiler {
 
 // The columns are name, signature, traits.
-// Signature: what it gives, '=', what it takes.
+// Signature: results, '=', operands.
 //   f: number, t: triple, m: matrix, s: text, a: array
 //   *: a number, triple or matrix, componentwise. All stars of one instruction have the shape of its result, or are
-//      numbers that count for every component.
+//      numbers, which stand for every component.
 // Traits:
-//   P  pure: the same inputs give the same outputs, so it may be shared, moved or left out, and it runs over all points
-//      whether they are active or not; it must not fail, whatever they hold.
+//   P  pure: the same inputs give the same outputs, so it may be shared, moved or left out. It runs over all points,
+//      active or not, so it must not fail for any values.
 //   K  a kernel (kernels.h) does it; without K the machine does.
 // clang-format off
 #define RSL_OPS(OP)                                                                                                  \

@@ -1,5 +1,5 @@
-// Built-in functions whose definitions are simplest in RSL. They are inlined as all functions are, so they cost what
-// their text costs. Names that begin with two underscores are not meant for users.
+// Built-in functions whose definitions are simplest in RSL. They are inlined like all functions, so they cost no more
+// than their text. Names that begin with two underscores are not meant for users.
 #include "reyes/rsl/checker.h"
 #include "reyes/rsl/parse.h"
 

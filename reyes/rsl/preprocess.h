@@ -1,6 +1,6 @@
-// The first stage: files, #include, #define and #if become one row of tokens.
-// Sources: RISpec 3.2 section 11 (RSL is passed through the C preprocessor) and ISO C90 6.8, whose rules of
-// replacement (stringify, paste, no recursion) are followed.
+// The first stage of the compiler: files, #include, #define and #if become one list of tokens. Sources: RISpec 3.2
+// section 11 (RSL is passed through the C preprocessor) and ISO C90 6.8, whose rules of replacement (stringify, paste,
+// no recursion) are followed.
 #pragma once
 #include <memory>
 #include <string>
@@ -31,32 +31,32 @@ struct Token {
 
 struct PreprocessOptions {
   /// The folders of #include: "NAME" is looked for beside the including file first, then here; <NAME> only here. A file
-  /// outside of these folders and of the shader's own is not read, even if a name has "../".
+  /// outside of these folders and the shader's own is not read, even through "../" in a name.
   std::vector<std::string> includeFolders;
   struct Definition {
     std::string name, value;  ///< Given by `-D NAME=VALUE`.
   };
   std::vector<Definition> definitions;
-  /// True if headers of the renderer serve names that are found nowhere else (standard_headers.h).
+  /// True if the renderer's own headers are used for names that are found nowhere else (standard_headers.h).
   bool standardHeaders = true;
 };
 
-/// Bounds for files of strangers; more is an error.
+/// Bounds for untrusted files; exceeding them is an error.
 constexpr int kMostIncludeDepth = 64;
-constexpr size_t kMostTokens = 500'000;       ///< After expansion, with those that macros make on the way.
+constexpr size_t kMostTokens = 500'000;       ///< After expansion, counting those that macros make in between.
 constexpr int kMostExpansions = 50'000;       ///< Uses of macros.
 constexpr int kMostIncludes = 2'000;          ///< A file counts each time it is included.
 constexpr size_t kMostFileBytes = 16u << 20;  ///< The greatest size of one file.
 
 /// Returns the tokens of a file and of all that it includes; the last is of kind End. Errors go to `messages`, and
-/// tokens go on after them as well as they can; there are none if a bound is exceeded.
+/// tokenizing goes on as well as it can; if a bound is exceeded, there are no tokens.
 std::vector<Token> preprocess(const std::string& path, const PreprocessOptions& options, Sources& sources,
                               Messages& messages);
 /// Returns the same for a text, which messages call `name`. It includes files from the folders of `options` alone.
 std::vector<Token> preprocessText(const std::string& name, const std::string& text, const PreprocessOptions& options,
                                   Sources& sources, Messages& messages);
 
-/// Prints a line for each token: place, kind, text.
+/// Returns a line for each token: place, kind, text.
 std::string dump(const std::vector<Token>& tokens, const Sources& sources);
 
 }  // namespace tomales::compiler

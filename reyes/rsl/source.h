@@ -26,7 +26,7 @@ struct SourceFile {
 /// One use of a macro. Text that it makes has the place of the macro's definition.
 struct Expansion {
   std::string macro;
-  Place use{};  ///< The place of the macro's name. Within another macro it has an expansion of its own.
+  Place use{};  ///< The place of the macro's name. Inside another macro that place has an expansion itself.
 };
 
 /// The files of one compilation. Files and expansions are only added, so places stay valid.
@@ -39,7 +39,7 @@ class Sources {
   size_t fileCount() const { return files_.size(); }
   /// Returns the text of a line, without its end. Empty if there is no such line.
   std::string_view line(int32_t file, int32_t line) const;
-  /// Returns the place where the outermost macro around is used, or the place itself if there is no macro.
+  /// Returns the place where the outermost enclosing macro is used, or the place itself if it is in no macro.
   Place outermost(Place place) const;
   /// Returns "file:line:column".
   std::string text(Place place) const;
@@ -65,7 +65,7 @@ class Messages {
  public:
   void error(Place place, std::string text, int32_t length = 1);
   void warning(Place place, std::string text, int32_t length = 1);
-  /// Warns of something that the shader needs and nobody has. It runs with a substitute.
+  /// Warns of something that the shader needs and that does not exist. The shader runs with a substitute.
   void missing(Place place, std::string text, int32_t length = 1);
   int missingCount() const { return missing_; }
   void note(Place place, std::string text, int32_t length = 1);
@@ -75,7 +75,7 @@ class Messages {
   /// More errors than this are counted but not kept; the same holds for warnings, and for the notes of one message.
   static constexpr int kMostErrors = 20;
 
-  /// Returns the messages as good compilers print them: "file:line:column: error: text", the line, a caret below it,
+  /// Returns the messages in the form of common compilers: "file:line:column: error: text", the line, a caret below it,
   /// and one line for each macro and each #include that the place comes from.
   std::string rendered(const Sources& sources) const;
 

@@ -1,5 +1,5 @@
-// The headers that come with the renderer (shaders/include), for shaders whose own headers are missing. They are part
-// of the program, so that nothing else need be installed.
+// The headers that come with the renderer (shaders/include), for shaders whose own headers are missing. They are built
+// into the program.
 #pragma once
 #include <string_view>
 #include <vector>

@@ -1,5 +1,5 @@
-// The trees of functions and shaders that the parser makes of a file (RISpec 3.2 sections 11 to 14). check.h fills in
-// types and what names mean.
+// The trees of functions and shaders that the parser makes of a file (RISpec 3.2 sections 11 to 14). The checker
+// (check.h) fills in types and the meanings of names.
 #pragma once
 #include <initializer_list>
 #include <memory>
@@ -21,7 +21,8 @@ enum class Detail : uint8_t { Unstated, Uniform, Varying };
 /// A type without its detail.
 struct Type {
   Base base = Base::Void;
-  int32_t length = 0;  ///< The length of an array; 0 if none; kOpenArray for "float a[]", as long as the argument.
+  int32_t length =
+      0;  ///< The length of an array; 0 if none; kOpenArray for "float a[]", which is as long as the argument.
   bool operator==(const Type&) const = default;
   bool isArray() const { return length != 0; }
   bool isTriple() const { return length == 0 && base >= Base::Color && base <= Base::Normal; }
@@ -68,8 +69,8 @@ enum class ExprKind : uint8_t {
   Comma,        ///< args in order; the value is that of the last
 };
 
-/// More levels in one expression are an error of the parser, so that trees may be walked by recursion. (Nesting is
-/// bounded by kMostNesting; this counts a chain "a + b + c + ..." too.)
+/// Most levels of one expression. More are an error of the parser, so that trees may be walked by recursion. (Nesting
+/// is bounded by kMostNesting; this counts a chain "a + b + c + ..." too.)
 constexpr int32_t kMostHeight = 1000;
 
 struct Expr {
@@ -88,10 +89,10 @@ struct Expr {
   Variable* variable = nullptr;        ///< The variable of a Name.
   const Function* function = nullptr;  ///< The function of a Call to one of the file.
   const Builtin* builtin = nullptr;    ///< The function of a Call to a built-in one, or to one of a plugin.
-  bool missing = false;                ///< True for a Call to a function that nobody has.
+  bool missing = false;                ///< True for a Call to a function that does not exist.
 };
 
-/// Returns the value of an expression of written numbers alone; empty if it holds anything else.
+/// Returns the value of an expression that consists of number literals alone; otherwise nothing.
 std::optional<float> constantOf(const Expr& e);
 
 enum class StmtKind : uint8_t {
@@ -122,7 +123,7 @@ struct Stmt {
   std::unique_ptr<Function> function;
 };
 
-/// Tells whether a statement of one of these kinds is in it. Functions that it defines do not count.
+/// Tells whether `s` contains a statement of one of these kinds. Functions that it defines do not count.
 bool contains(const Stmt& s, std::initializer_list<StmtKind> kinds);
 
 struct Function {
@@ -153,7 +154,7 @@ struct File {
   std::vector<std::unique_ptr<Shader>> shaders;
 };
 
-/// Prints one node a line, indented, with types where the checker has set them.
+/// Returns one line for each node, indented, with the types that the checker has set.
 std::string dump(const File& file);
 
 }  // namespace tomales::compiler

@@ -13,16 +13,16 @@ constexpr Type kUnknown{Base::Void, -2};
 inline bool isSpatial(const Type& t) { return t.isTriple() && t.base != Base::Color; }
 inline bool isNumeric(const Type& t) { return t.is(Base::Float) || t.isTriple(); }
 
-/// Returns how far apart two types are: 0 if they are the same, empty if one does not convert to the other. More than
-/// kDoubtful gives a warning. For example, a color stands where a point belongs, which public shaders do against
-/// RISpec.
+/// Returns how far apart two types are: 0 if they are the same, nothing if `from` does not convert to `to`. A distance
+/// above kDoubtful gives a warning, for example for a color in the place of a point, which RISpec forbids and public
+/// shaders use.
 constexpr int kDoubtful = 5;
 std::optional<int> conversion(const Type& from, const Type& to);
 
 struct Operation {
   Op op;
   Type result;
-  Type operand = kUnknown;  ///< The type that both sides are converted to; unknown if they are left as they are.
+  Type operand = kUnknown;  ///< The type that both sides are converted to; kUnknown if they are not converted.
   bool negated = false;     ///< True if the result is the opposite of the instruction's.
 };
 /// Returns the operation of a binary operator; empty if there is none for these types.

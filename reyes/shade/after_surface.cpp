@@ -6,7 +6,7 @@ namespace tomales {
 
 namespace {
 
-/// Puts what Volumes scatter and hide before colours.
+/// Composites the light and opacity of Volumes over colours.
 void layOver(const ShadedPoints& volumes, ShadedPoints& colors) {
   for (int k = 0; k < 3; ++k)
     for (size_t i = 0; i < colors.Ci[k].size(); ++i) {
@@ -30,7 +30,7 @@ void ShadingSystem::atmosphere(const ShadePoints& points, ShadedPoints& out, con
   if (!group.atmosphere && !impl_->hasVolumes) return;
   const ShadedPoints before = out;
   ShadePoints through = points;
-  // The air is crossed from the eye to the point, also where rays are parallel and kI has no length of its own.
+  // The air is crossed from the eye to the point, also if rays are parallel, where kI does not have this length.
   for (int i = 0; i < through.count() && !impl_->camera.perspective(); ++i)
     through.set3(kIx, i, vec3(0, 0, through.channel(kPz)[i]));
   ShadedPoints volumes;

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-constexpr int kSteps = 32;  ///< Steps along each edge of a patch; a sphere's area is then right to a thousandth.
+constexpr int kSteps = 32;  ///< Steps along each edge of a patch, which give a sphere's area to a thousandth.
 
 /// Sums the areas of the polygons of a lattice over the patch, in camera space.
 double areaOf(const Prim& shape, uint32_t patch, const mat4& cameraFromObject) {
@@ -47,7 +47,7 @@ double areaOf(const Scene& scene, int light) {
   return sum;
 }
 
-/// Returns null if the light's shader takes no area, or the scene gives it.
+/// Returns null if the light's shader takes no area, or if the scene gives it.
 const TmParamDecl* parameterOfArea(const ShaderCall& call, const std::string& path, ShaderRegistry& registry) {
   const ShaderName name = nameOf(call, TM_LIGHT);
   const TmShader* shader = registry.find(name.name, name.kind, path, name.beside);

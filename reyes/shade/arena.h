@@ -1,5 +1,5 @@
-// Scratch memory of one batch: aligned arrays that are all freed at once and kept for the next batch of the
-// thread.
+// Scratch memory of one batch: aligned arrays that are all released at once. The thread keeps the memory for its next
+// batch.
 #pragma once
 #include <memory>
 #include <vector>
@@ -34,8 +34,8 @@ class Arena {
   StackMemory memory_;
 };
 
-/// An Arena of this thread for as long as it lives. Shading nests (a gather ray shades its hit), so a thread
-/// has a stack.
+/// Lends an Arena of this thread while this object lives. Shading nests (a gather ray shades its hit), so a thread has
+/// several.
 class ArenaLease {
  public:
   ArenaLease() {

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-/// Lays out an array or a matrix that varies, as kArrayVaries (reyes/rsl_host.h) says.
+/// Lays out a varying array or matrix (kArrayVaries in reyes/rsl_host.h).
 TmValue arrayOf(const Override& o, int32_t length, const Batch& batch) {
   TmValue out{{}, 1, length, nullptr};
   const int count = batch.tm.count, apart = batch.tm.padded;
@@ -227,7 +227,7 @@ void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
   for (int i = 0; i < n; ++i) set(tm.P, i, {p.x + static_cast<float>(i), p.y, 0});
   tm.Ng = tm.I = tm.dPdu = tm.dPdv = tm.dPdtime = zero;
   tm.du = tm.dv = zero.x;
-  // For an imager u and v run over the picture, from its top left corner.
+  // In an imager u and v run over the picture, from its top left corner.
   float *u = arena.floats(n), *v = arena.floats(n);
   for (int i = 0; i < n; ++i) {
     u[i] = tm.P.x[i] / static_cast<float>(scene.scene.options.xResolution);

@@ -1,5 +1,5 @@
-// One sub-batch of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one uses
-// it; its BoundScene is shared and constant.
+// One sub-batch of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one
+// thread uses it; its BoundScene is shared and constant.
 #pragma once
 #include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
@@ -31,7 +31,7 @@ class Batch {
   /// Sets the inputs and outputs of a displacement shader to motion key 0 of a grid.
   void setGrid(Grid& grid, const BoundShader& shader);
 
-  /// Makes this a copy of the batch `asking`, whose shader asks for light at `moved`: its own points at other
+  /// Makes this a copy of the batch `asking`, whose shader asks for light at `moved`, which are its own points at other
   /// positions. Lights then see the surface and the shader of `asking`. `g` has the mask.
   void setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& moved);
   /// Sets the inputs of a light shader to points that nothing shades.
@@ -39,22 +39,24 @@ class Batch {
   /// Sets the inputs and outputs of an imager shader.
   void setPixels(ShadedPixels& pixels, const BoundShader& shader);
 
-  /// Gives the change of a value over each micropolygon, along u or v, by its neighbours or because the host knows the
-  /// value. Returns false and leaves `out` alone if neither does. Inactive points get any value.
+  /// Computes the change of a value over each micropolygon, along u or v, from its neighbours or from the host's own
+  /// knowledge of the value. Returns false and leaves `out` alone if it has neither. Inactive points get arbitrary
+  /// values.
   bool stepsOf(const TmGrid* g, bool alongV, const float* value, float* out) const;
 
   /// Tells whether primitive variables are known. Points in the air of a Volume have none.
   bool hasPrimvars() const;
   /// Returns values of the primitive variables at the points and their neighbours. Pre: hasPrimvars().
   const float* primvar(int offset) const;
-  /// Returns the parameters of a shader of the group, with those that primitive variables give, until the batch is set
-  /// anew.
+  /// Returns the parameters of a shader of the group, including those that primitive variables give. They are valid
+  /// until the batch is set anew.
   const std::vector<TmValue>& valuesOf(const BoundShader& shader);
 
   /// Calls the shader. Returns false, after a report, if it has thrown.
   bool run(const BoundShader& shader, const TmGrid& tmGrid);
   /// Finds the value of a parameter whose default the shader computes (rslComputesDefault()), at the points of a grid,
-  /// whose `params` are the shader's. Returns nothing, after a report, if it has thrown, or if it would ask itself.
+  /// whose `params` are the shader's. Returns nothing, after a report, if the shader has thrown, or if the parameter
+  /// depends on itself.
   std::optional<RslValue> computed(const BoundShader& shader, int param, const TmGrid& tmGrid);
   /// Makes points where the shader returned NaN or infinity opaque and black, with a warning.
   void blackOutNonFinite(const BoundShader& shader);
@@ -72,10 +74,10 @@ class Batch {
   const ShadePoints* points = nullptr;
   Stencil stencil;             ///< Unset if there are no neighbours.
   const Grid* grid = nullptr;  ///< Null while shading.
-  /// What the surface has left at the points, while the atmosphere runs; else null.
+  /// The results of the surface at the points, while the atmosphere runs; otherwise null.
   const ShadedPoints* ofSurface = nullptr;
   const BoundShader* running = nullptr;
-  /// The shader that the batch has been set for. `running` is another while lights are evaluated.
+  /// The shader that the batch has been set for. While lights are evaluated, `running` is another one.
   const BoundShader* own = nullptr;
   Lights lights;
   std::vector<std::unique_ptr<RemoteBatch>> remoteBatches;  ///< The latest first (remote_batch.h).
@@ -106,12 +108,12 @@ class Batch {
   };
 
  private:
-  /// Lays out what valuesOf() returns.
+  /// Makes the result of valuesOf().
   std::vector<TmValue> laidOut(const BoundShader& shader) const;
-  /// Calls what runs code of the shader. Returns false, after a report, if it has thrown.
+  /// Calls `call`, which runs code of the shader. Returns false, after a report, if it has thrown.
   bool guarded(const BoundShader& shader, const std::function<void()>& call);
   void setCommon(int count, const BoundShader& shader);
-  /// Sets what primitive variables may give. Call it when points or grid is set.
+  /// Sets the inputs that primitive variables may give. Call it when points or grid is set.
   void setVariables();
   CrashNote::Text crashText() const;
   TmConstVec3 constant(const vec3& v);
@@ -124,8 +126,8 @@ class Batch {
   std::vector<std::pair<const BoundShader*, int>> computingNow_;  ///< Parameters that computed() is finding.
 };
 
-/// Returns the default options, with the fields that a caller gives. The caller's struct begins with structBytes, which
-/// tells how many fields its release has. It may be null.
+/// Returns the default options, overwritten by the caller's fields. The caller's struct begins with structBytes, which
+/// shows how many fields its release has. `given` may be null.
 template <class Options>
 Options givenOptions(const Batch& batch, Options options, const Options* given) {
   if (given && given->structBytes < sizeof given->structBytes)

@@ -1,4 +1,4 @@
-// Finds, once for each light that is bound, what the renderer knows of it: from the capabilities of its shader and from
+// Finds, once for each light, everything that the renderer knows about it, from the capabilities of its shader and from
 // its parameters with a role. Nothing else reads a light's parameters.
 #include <fmt/format.h>
 
@@ -101,7 +101,7 @@ bool isSetEverywhere(const BoundShader& light, TmRole role) {
   return light.output(role) < 0 && light.number(role, 0) != 0;
 }
 
-/// Warns if only one of AreaLightSource and TM_LIGHT_AREA says that the light has an area.
+/// Warns if the request is AreaLightSource and the shader has no TM_LIGHT_AREA, or the reverse.
 void warnOfArea(const BoundLight& light, const LightCall& call, bool hasGeometry, Log& log) {
   const auto warn = [&](const char* code, Severity severity, const std::string& problem) {
     log.report(severity, code, call.shader.where, light.bound->user + ": " + problem);
@@ -192,7 +192,8 @@ std::unique_ptr<BoundLight> Binder::addedIndirectLight(int index) {
 
 namespace {
 
-/// Lets a light that filters an indirect light ask for the same light as its source. Returns false if there is none.
+/// Makes a light that filters an indirect light ask for the same light as its source. Returns false if there is no
+/// source.
 bool connectFilter(BoundLight& filter, const BoundScene& scene) {
   const std::string source = filter.bound->text(TM_ROLE_INDIRECT_SOURCE, "");
   for (size_t i = scene.lights.size(); i-- > 0;) {

@@ -47,8 +47,8 @@ class Binder {
     }
     return bind(&call, call.where, user, TM_SURFACE);
   }
-  /// Notes a shader that is about to be bound. prepare() compiles the texts of all of them side by side, so that
-  /// binding, one after the other, finds them done.
+  /// Notes a shader that is about to be bound. prepare() compiles the source files of all of these in parallel, so that
+  /// binding them one by one finds them compiled.
   void expect(const ShaderCall* call, TmKind kind);
   void prepare();
   std::unique_ptr<BoundLight> light(const LightCall& call, int index);
@@ -78,7 +78,7 @@ class Binder {
   std::set<int> haveGeometry_;  ///< The area lights that some object belongs to.
   std::map<const ShaderCall*, BoundShaderPtr> bound_;
   std::set<const ShaderCall*> expected_;
-  std::vector<ShaderName> names_;  ///< The shaders that are expected since the last prepare().
+  std::vector<ShaderName> names_;  ///< The shaders that have been expected since the last prepare().
 };
 
 /// Returns the openings to the sky that have been found for a scene.

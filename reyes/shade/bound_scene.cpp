@@ -57,8 +57,8 @@ void findPrimvars(BoundGroup& g) {
   }
 }
 
-/// Has the surface keep those of its outputs that the atmosphere, which runs after it, may ask for: those that its text
-/// names.
+/// Makes the surface store the outputs that the atmosphere, which runs after it, may ask for, because its text names
+/// them.
 void tellAir(BoundGroup& g) {
   if (!g.atmosphere) return;
   int next = 0;
@@ -186,13 +186,13 @@ std::shared_ptr<const LightChoice> BoundScene::choiceAmong(LightList on,
   return std::make_shared<LightChoice>(std::move(on), std::move(longest));
 }
 
-// Each of many lamps with geometry has a list, with which the next one's begins. Lists that procedurals bring later
-// share none, because it depends on threads which of them come first.
+// The objects of many lamps have lists of lights each of which is a beginning of the next. Lists that procedurals bring
+// later share no sets, because their order depends on threads.
 void BoundScene::shareChoices() {
   for (const ShadeGroup& group : scene.groups) choices_.try_emplace(group.attributes->lights.among(known));
   auto longest = choices_.rend();
   for (auto it = choices_.rbegin(); it != choices_.rend(); ++it) {
-    // Many lamps of a tree that are off would make those that are on noisier.
+    // If many lamps of a tree were off, the others would get noisier.
     const bool shares =
         longest != choices_.rend() && it->first.begins(longest->first) && 2 * it->first.size() >= longest->first.size();
     it->second = choiceAmong(it->first, shares ? longest->second : nullptr);

@@ -17,7 +17,7 @@ namespace tomales {
 constexpr int kMostLightSamples = 1 << 12;  ///< The limit for one light and one point.
 constexpr int kLightCut = 32;               ///< Option "trace" "lightcut" where the scene says nothing.
 
-/// All that is known of a light, from its shader's capabilities and roles (bind_lights.cpp).
+/// Everything known about a light, from its shader's capabilities and roles (bind_lights.cpp).
 struct BoundLight {
   BoundShaderPtr bound;
   int index = -1;  ///< Its index in Scene::lights, or behind those for one that was added.
@@ -25,31 +25,31 @@ struct BoundLight {
   bool shadows = false;
   bool direct = true;        ///< It lights what the camera sees.
   bool indirect = true;      ///< It lights what gather rays see.
-  float shadowVariance = 0;  ///< The variance of the share of light that shadow rays may leave; 0: all rays are traced.
-  bool visible = true;       ///< Area lights glow for the camera, and all for specular rays.
-  bool nondiffuse = false, nonspecular = false;  ///< True if diffuse() or specular() leaves it out.
+  float shadowVariance = 0;  ///< The variance of transmission at which shadow rays may stop; 0: all rays are traced.
+  bool visible = true;       ///< Area lights are seen by the camera, and all lights by specular rays.
+  bool nondiffuse = false, nonspecular = false;  ///< True if diffuse() or specular() ignores it.
   IndirectQuery query;                           ///< Set for TM_LIGHT_INDIRECT alone.
   IndirectRequest request;                       ///< The light's request to the whole frame.
   bool filters = false;                          ///< It brings the light of another indirect light.
   float maxVariation = 0;    ///< TmOcclusion::maxVariation of its calls, if answers may be interpolated.
   std::string group;         ///< The name of its group, or its handle if it names none.
-  std::string category;      ///< Names that commas separate; "indirect" if it is.
+  std::string category;      ///< Names, separated by commas; "indirect" for an indirect light.
   std::shared_ptr<Sky> sky;  ///< Set for TM_LIGHT_SKY alone.
   vec3 sourceTint{1.0f};     ///< The tint of the indirect light that this one filters.
   bool can(TmCapability capability) const { return bound->can(capability); }
-  /// Tells whether it is a sky that casts shadows and names no portals, though its shader knows some.
+  /// Tells whether it is a sky that casts shadows, and whose shader knows portals but has none named.
   bool takesFoundPortals() const {
     return can(TM_LIGHT_SKY) && shadows && bound->find(TM_ROLE_SKY_PORTALS) &&
            bound->text(TM_ROLE_SKY_PORTALS, "").empty();
   }
 };
 
-/// Tells whether the light, which is no indirect one, is among those that the context lets shine.
+/// Tells whether the context lets the light shine. Pre: it is no indirect light.
 inline bool isMeant(const BoundLight& light, const ShadeContext& context) {
   return !context.onlyLightGroup || light.group == *context.onlyLightGroup;
 }
 
-/// A primitive variable that takes the place of a shader parameter. The points hold it in current space already.
+/// A primitive variable that replaces a shader parameter. The points hold it in current space already.
 struct Override {
   int param, primvarOffset, width;
 };
@@ -60,7 +60,7 @@ struct BoundGroup {
   BoundShaderPtr surface,
       indirectSurface;  ///< indirectSurface is for rays that hit it (Attribute "indirect" "surface").
   BoundShaderPtr displacement, atmosphere, interior, exterior;    ///< Each may be null.
-  std::map<const BoundShader*, std::vector<Override>> overrides;  ///< Of each of these shaders that has any.
+  std::map<const BoundShader*, std::vector<Override>> overrides;  ///< For each of these shaders that has any.
   std::span<const Override> overridesOf(const BoundShader& shader) const {
     const auto it = overrides.find(&shader);
     return it == overrides.end() ? std::span<const Override>() : it->second;
@@ -72,7 +72,8 @@ struct BoundGroup {
   std::optional<IndirectQuery> indirect;
   /// Indexed as FrameOutput::variables. Behind these are outputs that the atmosphere alone wants.
   std::vector<BoundVariable> variables;
-  std::vector<Override> toldToAir;  ///< Outputs of the surface that the atmosphere names; places are in `variables`.
+  std::vector<Override>
+      toldToAir;  ///< Outputs of the surface that the atmosphere reads, and their place in `variables`.
   /// Returns the surface for rays that gather diffuse light.
   const BoundShader& forDiffuseRays() const { return indirectSurface ? *indirectSurface : *surface; }
   /// Returns the volume shader inside or outside of its surfaces; null if there is none.
@@ -87,9 +88,9 @@ struct BoundScene {
   ~BoundScene();
   /// Binds the groups of the scene that are not bound yet.
   void bindNewGroups();
-  /// Returns a light of some group.
+  /// Returns a light. Pre: it belongs to some group, so it is not null.
   const BoundLight& light(int index) const { return *lights[static_cast<size_t>(index)]; }
-  /// Gives the openings that the scene has by now to all skies that take them.
+  /// Gives the openings that have been found for the scene to all skies that take them.
   void takeFoundPortals();
 
   const Scene& scene;
@@ -97,7 +98,7 @@ struct BoundScene {
   Stats& stats;
   const ShadeServices* services = nullptr;
   CloudServices* clouds = nullptr;
-  bool silent = false;  ///< What shaders print is dropped.
+  bool silent = false;  ///< Output of printf() in shaders is dropped.
   Camera camera;
   mat4 cameraFromWorld;
   int lightCut;             ///< Option "trace" "lightcut": how many of many lights a point runs; 0: all.
@@ -107,9 +108,9 @@ struct BoundScene {
   Skies skies;
   std::vector<std::unique_ptr<BoundLight>> lights;  ///< Indexed as Scene::lights; null for an unknown shader.
   std::optional<int> added;  ///< Index of the light that Options::wantsIndirect has added for all objects.
-  /// Those with a known shader; among them, indirect lights, and those whose answers may be interpolated
-  /// (BoundLight::maxVariation). Where few lights are wanted, it is quicker to ask a group for each of these than to
-  /// look at all lights of the group.
+  /// Lights with a known shader; indirect lights; and lights whose answers may be interpolated
+  /// (BoundLight::maxVariation). When few lights are wanted, it is quicker to look each of them up in a group than to
+  /// go over all lights of the group.
   LightList known, indirect, interpolated;
   BoundLight stored;                     ///< Stands for all lights where Illumination is not Lights.
   StableVector<BoundGroup> groups;       ///< Indexed as Scene::groups.

@@ -172,7 +172,7 @@ class Binding {
     ParameterValue value;
   };
 
-  /// Notes a value that the renderer wants to know. One that the shader computes is known if it is always the same.
+  /// Notes a value with a role. A value that the shader computes is known only if it is always the same.
   void bindRole(Role& r) {
     const TmShader& shader = *bound_.shader;
     const TmParamDecl& decl = shader.params[r.index];
@@ -183,7 +183,7 @@ class Binding {
     }
     if (!isMark(r.value))
       bound_.roleValues.push_back(roleValue(r.role, decl.name, true, r.given, r.value));
-    else if (bound_.output(r.role) < 0)  // else it is taken point by point
+    else if (bound_.output(r.role) < 0)  // otherwise it is read point by point
       warn("light-value", decl.name,
            fmt::format("the shader computes the default of \"{}\" when it runs, which the renderer cannot know; it "
                        "takes its own default",

@@ -1,4 +1,5 @@
-// A shader with its parameters resolved from defaults and RIB, and with points moved from shader to current space.
+// A shader with its parameters resolved from defaults and RIB, and with points transformed from shader to current
+// space.
 #pragma once
 #include "reyes/shader_api.h"
 #include "reyes/shader_registry.h"
@@ -10,8 +11,8 @@ namespace tomales {
 struct RoleValue {
   TmRole role;
   const char* name;   ///< The parameter's name.
-  bool declared;      ///< True if the shader declares it; else it is a standard parameter that the request gives.
-  bool given;         ///< True if the request gives it; else it is the shader's default.
+  bool declared;      ///< True if the shader declares it; false for a standard parameter that the request gives.
+  bool given;         ///< True if the request gives it; false for the shader's default.
   vec3 number{0.0f};  ///< The value of a float is in x alone.
   std::string text;   ///< The value of a string.
 };
@@ -21,7 +22,7 @@ struct BoundShader {
   SourceLoc where;   ///< The place of the request, or of an object without one.
   std::string user;  ///< The object or light that it is bound for, in messages.
   mat4 currentFromShader{1.0f};
-  /// The values in the order of TmShader::params, and one more that no shader may read (TmGrid::params). They point
+  /// The values in the order of TmShader::params, followed by one that no shader may read (TmGrid::params). They point
   /// into the arrays below.
   std::vector<TmValue> values;
 
@@ -33,14 +34,14 @@ struct BoundShader {
   int output(TmRole role) const;
 
   // The host reads a shader's parameters by roles, never by names.
-  /// The values of parameters with a role, but not of outputs and not of defaults that the shader computes. Those that
-  /// the request gives come first. Within either part the shader's own parameters are in the order of
-  /// TmShader::params, and standard ones (standardParams()) follow them.
+  /// The values of parameters with a role, without outputs and without defaults that the shader computes. Values that
+  /// the request gives come first. Within each part the shader's own parameters come in the order of TmShader::params,
+  /// then standard ones (standardParams()).
   std::vector<RoleValue> roleValues;
   const RoleValue* find(TmRole role) const;
   float number(TmRole role, float fallback) const;
   vec3 color(TmRole role, const vec3& fallback) const;
-  /// Returns the first text that is not empty; else `fallback`.
+  /// Returns the first text of the role that is not empty, or `fallback`.
   std::string text(TmRole role, const std::string& fallback) const;
 
   std::vector<std::vector<float>> floats;
@@ -52,8 +53,9 @@ inline bool isOutput(const TmParamDecl& decl) { return (decl.type & TM_OUTPUT) !
 inline bool isUniform(const TmParamDecl& decl) { return (decl.type & TM_UNIFORM) != 0; }
 inline int32_t typeOf(const TmParamDecl& decl) { return TM_TYPE_OF(decl.type); }
 
-/// A null `call` gives all defaults. Reports parameters that neither this shader has nor every shader of its kind
-/// (standardParams()), and values of another type or length than declared (parameter_values.h converts those).
+/// A null `call` gives all defaults. Reports parameters that are neither this shader's nor standard for its kind
+/// (standardParams()), and values whose type or length differs from the declaration (parameter_values.h converts
+/// those).
 BoundShaderPtr bindShader(const TmShader& shader, const ShaderCall* call, const SourceLoc& where,
                           const std::string& user, const mat4& currentFromShader, Log& log);
 

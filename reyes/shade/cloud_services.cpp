@@ -114,10 +114,10 @@ int32_t subsurface(void* host, const TmGrid* all, const char* file, const TmSubs
   return isKnown || refuse(batch, file, problem);
 }
 
-/// Share of what a point sees that large disks may be before they show.
+/// Share of a point's view that large disks may cover before they become visible.
 constexpr float kCoarseShare = 0.5f;
 
-/// One point decides, so that the message does not depend on batches.
+/// A single point triggers the warning, so that it does not depend on batches.
 void warnOfCoarseDisks(Batch& batch, const TmGrid* g, const char* file, const float* coarse) {
   bool shows = false;
   forActive(g, [&](int i) { shows = shows || coarse[i] > kCoarseShare; });

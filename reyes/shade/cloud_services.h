@@ -1,4 +1,4 @@
-// The disks of a point cloud for shaders: converts from current space to that of the file and back.
+// Lookups of shaders in the disks of a point cloud, converted from current space to the space of the file and back.
 #pragma once
 #include "reyes/cloud_services.h"
 #include "reyes/shade/batch.h"

@@ -8,9 +8,9 @@
 namespace tomales {
 namespace {
 
-/// Takes differences along the lattice: a displacement shader sees no better derivatives than its grid has. `d` is the
-/// change of the parameter `of` over a micropolygon, or 1 where that is 0 along this direction, as at points that are
-/// shaded. This is Stencil::step, written for vectors.
+/// Takes differences along the lattice: the derivatives of a displacement shader are as accurate as its grid. `d` is
+/// the change of the parameter `of` over a micropolygon, or 1 where that is 0 along this direction, as at shaded
+/// points. This is Stencil::step, written for vectors.
 TOMALES_HOT void derivatives(int n, const Stencil& stencil, int direction, const float* of, TmConstVec3 P,
                              float* __restrict d, TmVec3 dP) {
   const int32_t *lo = stencil.lo[direction], *hi = stencil.hi[direction];
@@ -53,7 +53,8 @@ TOMALES_HOT float longestWay(int n, TmConstVec3 from, TmConstVec3 to) {
   return std::sqrt(*std::max_element(longest2, longest2 + kLanes));
 }
 
-/// Applies P - before to the later motion keys, turned as the object turns; returns the longest displacement.
+/// Applies the displacement P - before to the later motion keys, turned as the object turns. Returns the longest
+/// displacement.
 float moveLaterKeys(Grid& g, TmConstVec3 before) {
   for (int key = 1; key < g.keyCount; ++key)
     for (int i = 0; i < g.vertexCount(); ++i) {

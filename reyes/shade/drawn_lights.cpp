@@ -1,5 +1,5 @@
-// Lights of which each point draws some (light_sets.h). A sample of a set is one run of the shader, with the numbers of
-// another light at each point.
+// Lights of which each point draws a few (light_sets.h). A sample of a set is one run of the shader, with the numbers
+// of a different light at each point.
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/illuminate.h"
@@ -10,9 +10,9 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kNoLight = ~0U;
-/// A lamp with geometry takes up to so many of its samples on the average: near lamps have all of theirs, far ones one.
+/// A lamp with geometry uses this many of its samples on average at most: near lamps use all of theirs, far ones one.
 constexpr int kSamplesOfLight = 2;
-/// Hits of gather rays draw this share of what the eye's points do: many of them make one record.
+/// Hits of gather rays draw one lamp where points that the eye sees draw this many, because many hits make one record.
 constexpr int kShareAtHits = 8;
 constexpr int kLeastInBranch = 4;
 
@@ -61,7 +61,7 @@ std::vector<DrawnLight> drawnOf(const Batch& batch, const LightsOfSet& some, con
   return out;
 }
 
-/// Deals out the lamps of all points, run by run.
+/// Distributes the lamps of all points over runs of the shader.
 class Drawing {
  public:
   Drawing(const Batch& batch, const LightsOfSet& some, const LightCuts& cuts)
@@ -124,7 +124,7 @@ TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<Lig
   return toward;
 }
 
-/// Takes the point on its lamp that each point has drawn.
+/// Samples for each point a position on the lamp that it has drawn.
 void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<LightOfPoint>& at, TmGrid& g,
                     const EmitterPoints& points) {
   float *xi0 = batch.arena.floats(g.count), *xi1 = batch.arena.floats(g.count);
@@ -248,7 +248,7 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
     openOutputs(batch, *first.bound, params);
     g.params = params.data();
     if (!batch.run(*first.bound, g)) return;
-    // No point meets more lamps than there are, so each run's shadow rays are asked under another light's name.
+    // No point meets more lamps than there are, so the shadow rays of each run can have the name of a different light.
     addMet(batch, *drawn.lights[run], g, beforeEmitters(batch, drawn, at, g), points.pdf, lobe, Cl);
   }
 }

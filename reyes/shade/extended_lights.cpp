@@ -7,8 +7,9 @@ namespace tomales {
 
 namespace {
 
-/// What a sample of a sky counts for in the power heuristic. A sky's samples are spread over the hemisphere, so few of
-/// them fall into a lobe, and the lobe's own samples tell more of it than as many samples of the sky.
+/// The number of samples that a sample of a sky counts as in the power heuristic. A sky's samples are spread over the
+/// hemisphere, so few of them fall into a lobe, and the lobe's own samples know more about it than the same number of
+/// samples of the sky.
 constexpr float kWorthOfSkySample = 0.25f;
 
 }  // namespace

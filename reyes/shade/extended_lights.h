@@ -1,5 +1,5 @@
-// Lights with an extent, lamps with geometry and skies: samples of their own, and directions that meet them. A grid is
-// that of a light shader over a batch's points; what these functions need and make of it is in its Pl, Nl, L and Cl.
+// Lights with an extent, which are lamps with geometry and skies: their own samples, and directions that meet them. `g`
+// is the grid of a light shader over a batch's points; these functions read and write its Pl, Nl, L and Cl.
 #pragma once
 #include "reyes/shade.h"
 
@@ -8,8 +8,8 @@ namespace tomales {
 class Batch;
 struct BoundLight;
 
-/// Unit directions that a surface has drawn itself, one of `samples` for each point. `pdf` is over solid angle; 0
-/// where there is no direction.
+/// Unit directions that a surface has drawn itself, one for each point: number `sample` of `samples`. `pdf` is over
+/// solid angle; 0 if there is no direction.
 struct LobeDirections {
   TmConstVec3 L;
   const float* pdf;
@@ -17,13 +17,14 @@ struct LobeDirections {
 };
 
 bool hasExtent(const BoundLight& light);
-/// Tells whether directions find it. The own samples of lights that shine all round are all their light.
+/// Tells whether directions can meet it. Lights that shine all round are found by their own samples alone.
 bool canBeMet(const BoundLight& light);
 
 /// Makes room for the points on the emitter, which the grid then shows the shader.
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);
-/// Takes points on the emitter by the grid's random numbers. Returns false if the light has no geometry. Of a light
-/// that shines all round, they are on all of it, and weights make Cl the mean over the area (sampleWholeEmitter()).
+/// Samples points on the emitter by the grid's random numbers. Returns false if the light has no geometry. On a light
+/// that shines all round, the points cover the whole emitter, and weights make Cl the mean over its area
+/// (sampleWholeEmitter()).
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
 /// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
@@ -31,13 +32,13 @@ void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPo
 bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
                const EmitterPoints& points);
 
-/// Runs the light. A sky lights along the directions that it was given, whatever its shader makes of L.
+/// Runs the light. A sky always lights along the given directions, even if its shader changes L.
 bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g);
 /// Changes Cl after the run of a light for which isMean() is true. Cl is the light that a lamp at one point of the
 /// geometry would bring; it becomes the radiance of the geometry there, so that the mean of Cl over the area arrives.
 /// The integral of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
 void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
-/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `pdf` is that of all samples
+/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `pdf` is the density of all samples
 /// together, over solid angle.
 void radianceToSample(const TmGrid& g, const float* pdf);
 

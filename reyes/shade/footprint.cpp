@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 /// Returns the angle that a point's micropolygon subtends in what it mirrors: twice the angle from the eye. (A flat
-/// mirror keeps the angle; the factor allows for curvature, whose normals are not known.)
+/// mirror keeps the angle; the factor allows for curvature, since changes of the normal are not known.)
 float angleSeen(const TmGrid* g, int i) {
   const float edge =
       std::max(glm::length(get(g->dPdu, i)) * std::abs(g->du[i]), glm::length(get(g->dPdv, i)) * std::abs(g->dv[i]));

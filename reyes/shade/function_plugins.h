@@ -1,5 +1,5 @@
-// Functions that plugins bring for shaders in the shading language (reyes/shader/functions.h). All plugins of the
-// trusted folders are opened when a shader first calls a function that the language does not have. Threads: any.
+// Functions of plugins for shaders in the shading language (reyes/shader/functions.h). All plugins of the trusted
+// folders are opened when a shader first calls a function that the language does not have. Threads: any.
 #pragma once
 #include <map>
 #include <mutex>

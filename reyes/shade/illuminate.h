@@ -1,6 +1,6 @@
 // The computations of shading services at every point of a batch for every light, vectorised. Arrays have `n` elements.
-// `share` is how much of the light counts at a point; where it is 0 nothing is added, whatever else a point holds.
-// Threads: pure.
+// `share` is the share of the light that counts at a point. Where it is 0, nothing is added, even if other values are
+// NaN. Threads: pure.
 #pragma once
 #include "reyes/base/math.h"
 #include "reyes/shader_api.h"

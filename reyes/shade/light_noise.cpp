@@ -12,8 +12,8 @@ constexpr double kShareOfPoints = 0.5;
 constexpr int64_t kFewPoints = 100;  ///< Fewer points than this say nothing about a picture.
 
 /// The luminance that each half of a light's samples brings to matte points of reflectance 1. The halves are the
-/// samples before and after the middle; each is as well spread as all (an initial part of a Sobol sequence, and its
-/// continuation).
+/// samples before and after the middle. Each is well distributed, because they are the beginning and the continuation
+/// of a Sobol sequence.
 struct Halves {
   const BoundLight* light;
   bool chance;  ///< True if its samples are drawn; those of an indirect light are its colours.
@@ -61,7 +61,7 @@ void LightNoise::add(Batch& batch) {
                    [](const LightSample& s) { return isDrawn(*s.light) && s.rays.samples > 1 && !s.drawn; }))
     return;
   const std::vector<Halves> lights = halvesOf(batch, samples);
-  // Points that are smaller than a pixel share their noise in it.
+  // If several points lie in a pixel, their noise averages.
   const float most = kUncertain / std::sqrt(std::min(batch.group.group->attributes->shadingRate, 1.0f));
   std::vector<int64_t> uncertain(lights.size());
   int64_t lit = 0;

@@ -1,4 +1,4 @@
-// Estimates how uncertain the samples of lights with an extent leave the picture, from sums that shading makes anyway.
+// Estimates the noise that samples of lights with an extent leave in the picture, from sums that shading makes anyway.
 #pragma once
 #include <atomic>
 #include <deque>
@@ -17,7 +17,7 @@ class LightNoise {
   explicit LightNoise(size_t lights) : uncertain_(lights) {}
   /// Counts the light samples that a surface shader has asked for.
   void add(Batch& batch);
-  /// Reports the light that leaves most points uncertain, if those are most.
+  /// Reports the light that leaves the largest number of points uncertain, if that is most of the points.
   void warn(const BoundScene& scene) const;
 
  private:

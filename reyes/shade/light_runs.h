@@ -14,15 +14,15 @@ inline bool bringsStored(Illumination light) {
 
 /// Tells whether the light counts for rays of the batch's kind.
 bool isOn(const BoundLight& light, const Batch& batch);
-/// Tells the same for a batch that the scene's lights light. It is false while displacing, for shadow rays, and where
-/// stored or unit light takes the place of lights.
+/// Tells whether the light counts and the scene's lights light the batch at all. They do not while displacing, for
+/// shadow rays, and where stored or unit light replaces lights.
 bool applies(const BoundLight& light, const Batch& batch);
 
 /// Returns the grid of the points for a light shader, without neighbours; its results have room for those.
 TmGrid lightGrid(Batch& batch, const BoundLight& light);
 /// Makes room for the outputs of a light, so that lightsource() can read them.
 void openOutputs(Batch& batch, const BoundShader& light, std::vector<TmValue>& params);
-/// Makes light that is not finite dark: the fault is the light's, not that of the surface that asks.
+/// Sets light that is not finite to 0, with a report: the fault is the light's, not the asking surface's.
 void darkenNonFinite(Batch& batch, const BoundShader& light, const TmGrid& g);
 
 /// Returns the random numbers of sample `sample` of `samples` of a light at a point. They follow from the point's name,

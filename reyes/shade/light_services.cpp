@@ -17,8 +17,8 @@ void fill(const TmGrid* g, TmVec3 out, const vec3& v) {
   forActive(g, [&](int i) { set(out, i, v); });
 }
 
-/// Returns the bias of a lookup that gives none: Option "shadow" "bias", or a random one between "bias0" and "bias1".
-/// Negative if the map is to choose it.
+/// Returns the bias of a lookup without its own: Option "shadow" "bias", or a random one between "bias0" and "bias1";
+/// negative if the map shall choose it.
 float shadowBias(const Options& options, uint32_t seed) {
   if (const Param* bias = findParam(options.user, "shadow:bias")) return bias->number(-1);
   const Param *low = findParam(options.user, "shadow:bias0"), *high = findParam(options.user, "shadow:bias1");

@@ -11,7 +11,7 @@
 namespace tomales {
 namespace {
 
-/// Weight of a lamp that sends nothing, as a share of the brightest: surfaces see that it is there.
+/// Weight of a lamp without light, as a share of the brightest, so that surfaces still meet it among the drawn lamps.
 constexpr float kDark = 1e-6f;
 
 /// Tells whether a number may differ from light to light of a set.
@@ -31,7 +31,7 @@ Bound3 boundOf(const BoundLight& light, const ShadeServices* services) {
   return out;
 }
 
-/// TreeLight::power, as TM_LIGHT_BOUNDED promises it.
+/// Returns TreeLight::power, which TM_LIGHT_BOUNDED guarantees.
 float powerOf(const BoundLight& light, const ShadeServices* services) {
   const vec3 color = glm::abs(light.bound->number(TM_ROLE_SCALE, 1) * light.bound->color(TM_ROLE_TINT, vec3(1.0f)));
   const float scale = (color.x + color.y + color.z) / 3;
@@ -47,7 +47,7 @@ bool mayBeDrawn(const BoundLight& light) {
          std::none_of(std::begin(kNone), std::end(kNone), [&](TmCapability c) { return light.can(c); });
 }
 
-/// Lights with the same key differ in numbers alone.
+/// Returns a key. Lights with the same key differ only in numbers.
 std::string keyOf(const BoundLight& light) {
   const BoundShader& b = *light.bound;
   std::string key(reinterpret_cast<const char*>(&b.shader), sizeof b.shader);
@@ -67,7 +67,7 @@ std::string keyOf(const BoundLight& light) {
   return key;
 }
 
-/// Returns the parameters of whose values the lights have not all the same.
+/// Returns the parameters whose values are not the same for all lights.
 std::vector<int> varyingOf(const std::vector<const BoundLight*>& lights) {
   std::vector<int> out;
   const BoundShader& first = *lights[0]->bound;
@@ -106,7 +106,7 @@ LightSet setOf(std::vector<const BoundLight*> lights, const ShadeServices* servi
   return {std::move(lights), std::move(varying), std::move(numbers), LightTree(std::move(inTree))};
 }
 
-/// Tells whether so many lights are drawn from, and do not all run.
+/// Tells whether a set of `count` lights is drawn from, instead of running all of them.
 bool isMany(size_t count, const BoundLight& light, int lightCut) {
   return count > (light.shadows ? kFewLights : kFewWithoutShadows) * static_cast<size_t>(lightCut);
 }
@@ -129,7 +129,7 @@ SharedSets setsOf(const LightList& lights, const BoundScene& scene) {
   return out;
 }
 
-/// Returns what these lights are in sets that were made for a list that begins with them; null if all run.
+/// Returns the parts that these lights have in sets of a list that begins with them; null if all lights run.
 std::unique_ptr<const LightSets> partOf(const SharedSets& shared, const LightList& lights, int lightCut) {
   auto out = std::make_unique<LightSets>();
   std::vector<bool> drawn;

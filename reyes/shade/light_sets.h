@@ -1,6 +1,6 @@
-// Lights of which a point draws few instead of running all: what Option "trace" "lightcut" turns on. A set is made of
-// lights that differ in numbers alone, so that what a point draws is one sample of one light whose parameters vary from
-// point to point. Threads: any.
+// Sets of lights of which a point draws a few instead of running all (Option "trace" "lightcut"). The lights of a set
+// differ in numbers alone, so the lights that points draw run as one light whose parameters vary from point to point.
+// Threads: any.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -15,26 +15,26 @@ namespace tomales {
 struct BoundLight;
 struct BoundScene;
 
-/// A set has more lights than so many times the number that a point draws; fewer lights run as a whole. The second
-/// number holds for lights without shadows: a drawn light takes as long as three that cast shadows, or thirty that do
-/// not (docs/measured/rays.md).
+/// A set has more lights than this many times the number that a point draws; fewer lights all run. The second number
+/// holds for lights without shadows: a drawn light takes as long as three that cast shadows, or thirty that do not
+/// (docs/measured/rays.md).
 constexpr size_t kFewLights = 4, kFewWithoutShadows = 32;
 
 struct LightSet {
   std::vector<const BoundLight*> lights;  ///< Indexed as the tree's lamps.
   std::vector<int> varying;               ///< The parameters whose values differ.
-  /// All numbers of these parameters, lamp by lamp. A point takes those of a lamp from one place.
+  /// All numbers of these parameters, lamp by lamp, so that a lamp's numbers are adjacent.
   std::vector<float> numbers;
   LightTree tree;
 };
 
-/// Sets for all lists that their list begins with.
+/// Sets that also serve every list of lights that is a beginning of theirs.
 struct SharedSets {
   std::vector<LightSet> sets;
   std::vector<int> setOf;  ///< The set of each light of the scene; -1 if there is none.
 };
 
-/// The first so many lights of a set.
+/// The first lights of a set.
 struct LightsOfSet {
   const LightSet* set;
   uint32_t count;
@@ -49,7 +49,8 @@ struct LightSets {
 /// lamps with geometry are known by then.
 class LightChoice {
  public:
-  /// `longest`: the choice among a list that begins with these lights, whose sets it shares; null if it has its own.
+  /// `longest`: the choice for a longer list that begins with these lights, whose sets this one shares; null if it has
+  /// its own.
   explicit LightChoice(LightList lights, std::shared_ptr<const LightChoice> longest = nullptr)
       : lights_(std::move(lights)), longest_(std::move(longest)) {}
   const LightList& lights() const { return lights_; }

@@ -1,4 +1,4 @@
-// Shadow rays of light samples: they are traced, or answered from earlier ones, or not worth tracing.
+// Shadow rays of light samples, which are traced, answered from recorded rays, or skipped as unnecessary.
 #include "reyes/base/checksum.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/lights.h"
@@ -85,8 +85,8 @@ void Lights::transmit(Batch& batch, const LightSample& sample, const uint8_t* wa
   batch.scene.services->transmission(*batch.points, want, view(sample.toward), sample.rays, batch.context, passed);
 }
 
-// Traces the points for which no answer is known. While answers are recorded that is every point, wherever the shader
-// looks and however bright the light: intensities, cones and surfaces may then change without a ray.
+// Traces rays for points without a known answer. While answers are recorded these are all points, also where the shader
+// does not ask and the light is dark, so that intensities, cones and surfaces may change later without new rays.
 void Lights::transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const {
   RayAnswers& answers = *batch.context.answers;
   const int n = batch.points->count();

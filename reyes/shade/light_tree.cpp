@@ -6,13 +6,14 @@
 namespace tomales {
 namespace {
 
-/// Lamps behind a surface may shine through it, so they keep this share of what they would bring from in front.
+/// Lamps behind a surface may shine through it, so they keep this share of their light from the front.
 constexpr float kBehind = 0.1f;
 /// Least cosine that counts for a draw: bumps may turn a surface to a lamp that grazes it.
 constexpr float kGrazing = 0.02f;
 /// Least squared distance, so that light is finite at a lamp.
 constexpr float kNearest = 1e-20f;
-/// A side of a division holds at least so many of its lamps; else the median divides, and the tree stays flat.
+/// Each side of a division has at least this many lamps; otherwise the division is at the median, so that the tree
+/// stays flat.
 constexpr size_t kLeastSide = 16;
 
 struct Refinable {
@@ -31,13 +32,13 @@ struct Descent {
   size_t number;
 };
 
-/// The places of some lamps, weighed by their powers.
+/// The places of some lamps, weighted by their power.
 struct Places {
   double power = 0;
   glm::dvec3 mean{0}, variance{0};
 };
 
-/// A lamp is spread evenly over its bound.
+/// Returns the places of one lamp, taken as uniform over its bound.
 Places placesOf(const TreeLight& light) {
   const glm::dvec3 size(light.bound.size());
   return {double{light.power}, glm::dvec3(light.bound.center()), size * size / 12.0};
@@ -126,7 +127,7 @@ uint32_t LightTree::build(std::span<uint32_t> order) {
 float LightTree::atBest(const LightReceiver& at, const Node& node) const {
   const vec3 to = node.center - at.P;
   const float distance2 = dot(to, to), distance = std::sqrt(distance2), r = node.radius;
-  float cosine = 1;  // that of the sphere's point that is farthest in front
+  float cosine = 1;  // of the point of the sphere that is farthest in front
   if (at.N != vec3(0.0f) && distance > r) cosine = std::clamp((dot(at.N, to) + r) / distance, kBehind, 1.0f);
   return node.power * cosine / std::max({distance2, r * r, kNearest});
 }

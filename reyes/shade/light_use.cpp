@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kMostNamed = 3;       ///< One message names no more surfaces.
 constexpr int64_t kFewLitPoints = 10;  ///< Fewer counted points say nothing about a picture.
 constexpr double kShareOfLitPoints = 0.5;
-/// One point of so many is counted, which tells a share of the picture as well as all do.
+/// One point in this many is counted, which gives a share of the picture as well as all points do.
 constexpr int kCounted = 16;
 constexpr int kGlare_stops = 4;  ///< No film of any time shows white paper at sixteen times its white.
 
@@ -75,8 +75,8 @@ void LightUse::add(const Batch& batch) {
   countStops(batch);
 }
 
-// Notes the points of a batch to which a lamp sends light. Where a shadow ray has been traced there was light, and a
-// surface that wanted to know of it.
+// Notes the points of a batch to which a lamp sends light. A traced shadow ray means that there was light, and that a
+// surface asked for it.
 void LightUse::follow(const Batch& batch, const LightSample& sample, Use& use) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];
@@ -92,7 +92,7 @@ void LightUse::follow(const Batch& batch, const LightSample& sample, Use& use) {
   }
 }
 
-/// Counts how bright diffuse() makes white paper in the light of each lamp.
+/// Counts points by how bright white paper would be there, by diffuse(), in the light of each lamp.
 void LightUse::countStops(const Batch& batch) {
   const std::vector<LightSample>& samples = batch.lights.evaluated();
   const int n = batch.points->count(), counted = (n + kCounted - 1) / kCounted;
@@ -161,9 +161,8 @@ void LightUse::warnOfUseless(const BoundScene& scene) const {
     const Use& use = uses_[k];
     if (!use.asked || use.comes || !scene.lights[k] || !isDirect(*scene.lights[k])) continue;
     const BoundShader& light = *scene.lights[k]->bound;
-    scene.log.report(
-        Severity::Note, "light-useless", light.where,
-        fmt::format("{} comes to nothing that the camera sees: {}", light.user, whyUseless(scene, use, k)));
+    scene.log.report(Severity::Note, "light-useless", light.where,
+                     fmt::format("{} reaches nothing that the camera sees: {}", light.user, whyUseless(scene, use, k)));
   }
 }
 

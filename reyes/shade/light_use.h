@@ -1,5 +1,5 @@
-// Finds out what becomes of the light of each lamp: whether it comes to anything that the camera sees, and whether it
-// is far more than a picture can show.
+// Finds out where the light of each lamp goes: whether it reaches anything that the camera sees, and whether it is far
+// too bright for a picture.
 #pragma once
 #include <array>
 #include <atomic>
@@ -23,9 +23,9 @@ class LightUse {
  public:
   /// `lights` is the number of lights of the scene.
   explicit LightUse(size_t lights) : uses_(lights) {}
-  /// Takes in what a surface shader has asked of its lights at the points of a batch.
+  /// Counts the light samples that a surface shader has asked for at the points of a batch.
   void add(const Batch& batch);
-  /// Reports surfaces that ask for light where there is none, lights that come to nothing, and a light that alone makes
+  /// Reports surfaces that ask for light where there is none, lights that reach nothing, and a light that alone makes
   /// most of the picture too bright.
   void warn(const BoundScene& scene) const;
 
@@ -35,8 +35,8 @@ class LightUse {
     std::atomic<bool> asked{false};   ///< Some surface has asked for its light.
     std::atomic<bool> bright{false};  ///< Its shader sends light to some point.
     std::atomic<bool> faces{false};   ///< Some such point faces it.
-    std::atomic<bool> comes{false};   ///< No shadow covers some point that faces it.
-    /// Numbers of points that it makes 2^k to 2^(k+1) times as bright as white.
+    std::atomic<bool> comes{false};   ///< Some point that faces it is not in its shadow.
+    /// Number of points that it makes 2^k to 2^(k+1) times as bright as white, indexed by k.
     std::array<std::atomic<int64_t>, kStops> stops{};
   };
   void follow(const Batch& batch, const LightSample& sample, Use& use);

@@ -77,7 +77,7 @@ std::vector<LightSample>& Lights::samples(Batch& batch, bool indirect) {
         applies(first, batch) && (!request_ || inCategory(first.category, request_->category)))
       evaluateDrawn(batch, sets->sets[k]);
   if (!group_) return samples_;
-  // Copies share their arrays, so rays that are traced for one are traced for all.
+  // Copies of a sample share its arrays, so shadow rays that are traced for one copy count for all.
   chosen_.clear();
   for (const LightSample& s : samples_)
     if (s.light->group == *group_) chosen_.push_back(s);

@@ -1,6 +1,5 @@
-// The lights of one sub-batch of points. They are evaluated when a shader first asks, then kept for its other
-// questions. Shadow rays are traced later, sample by sample, for the points on whose side of the surface the sample
-// turns out to be.
+// The lights of one sub-batch of points. They are evaluated when a shader first asks, and kept for its further queries.
+// Shadow rays are traced later, sample by sample, and only for points that face the sample.
 #pragma once
 #include <deque>
 #include <map>
@@ -29,7 +28,7 @@ struct LightRequest {
   std::vector<LightMessage> sent;
 };
 
-/// The sums of the shadow rays of one light so far, at each point.
+/// Sums over the shadow rays of one light so far, at each point.
 struct ShadowTally {
   float* traced;  ///< Number of rays that were traced.
   TmVec3 passed;  ///< The sum of the light that they let pass.
@@ -46,21 +45,22 @@ struct LightCuts {
 };
 
 struct LightSample {
-  const BoundLight* light;       ///< If it is drawn from a set: the set's first light, which differs in numbers alone.
-  TmVec3 L;                      ///< Unit vectors from P to the light.
-  TmVec3 Cl;                     ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
-  TmVec3 toward;                 ///< L at full length, the way of a shadow ray.
-  ShadowRays rays{};             ///< The sample's shadow rays.
-  uint8_t* pending = nullptr;    ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
-  int question = 0;              ///< The number of its shadow rays among those of the light (ray_answers.h).
-  const float* pdf = nullptr;    ///< The density over solid angle of all samples of the light together, as the
-                                 ///< power heuristic counts them, where along() finds it too; else 0. Null if it is
-                                 ///< 0 everywhere.
-  ShadowTally* tally = nullptr;  ///< Null if every shadow ray is traced.
-  TmVec3 far{};                  ///< L at full length, for points and their neighbours.
+  const BoundLight*
+      light;          ///< For a sample drawn from a set, the set's first light; the others differ in numbers alone.
+  TmVec3 L;           ///< Unit vectors from P to the light.
+  TmVec3 Cl;          ///< Divided by the number of samples; multiplied by transmission where `pending` is 0.
+  TmVec3 toward;      ///< L at full length: the path of a shadow ray.
+  ShadowRays rays{};  ///< The sample's shadow rays.
+  uint8_t* pending = nullptr;       ///< 1 where a shadow ray is still to be traced. Null if the light casts no shadows.
+  int question = 0;                 ///< Index of its shadow rays among those of the light (ray_answers.h).
+  const float* pdf = nullptr;       ///< The density over solid angle of all samples of the light together, as the
+                                    ///< power heuristic counts them, where along() finds it too; else 0. Null if it is
+                                    ///< 0 everywhere.
+  ShadowTally* tally = nullptr;     ///< Null if every shadow ray is traced.
+  TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
-  bool drawn = false;  ///< Each point has drawn a light of its own; where it has none, Cl is 0.
+  bool drawn = false;  ///< Each point has drawn a light of its own; Cl is 0 at points that have drawn none.
 };
 
 class Lights {
@@ -69,7 +69,7 @@ class Lights {
   void restrictTo(const std::string* group);
   bool restricted() const { return group_ != nullptr; }
   const std::string* group() const { return group_; }
-  /// Sets the request, before the first question. `request` must outlive this.
+  /// Sets the request, before the first query. `request` must outlive this object.
   void ask(const LightRequest& request) { request_ = &request; }
   /// Writes the sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
@@ -77,9 +77,9 @@ class Lights {
   /// until shadow() has been called. Without `indirect`, indirect lights, which may cost many rays, do not run unless
   /// they have run already. If they do later, their samples come last.
   std::vector<LightSample>& samples(Batch& batch, bool indirect = true);
-  /// Tells whether the shader has asked for the light that arrives.
+  /// Tells whether the shader has asked for incident light.
   bool asked() const { return evaluated_ || ambientAsked_; }
-  /// Returns the lights that run at every point of the batch: all, or those that no set holds.
+  /// Returns the lights that run at every point of the batch: all, or those in no set.
   const LightList& alone(const Batch& batch) const;
   /// Returns the samples that have been asked for so far, of all groups.
   const std::vector<LightSample>& evaluated() const { return samples_; }
@@ -87,12 +87,12 @@ class Lights {
   /// variance is already exact enough.
   void shadow(Batch& batch, LightSample& sample, const uint8_t* want) const;
 
-  /// Adds what lights with an extent send along the given directions, shadowed. The power heuristic weights each
-  /// direction, which adds radiance / pi * b / (a^2 + b^2): a is the density of the light's own samples there, and b
-  /// that of the given directions.
+  /// Adds the light that lights with an extent send along the given directions, shadowed. Each direction adds radiance
+  /// / pi * b / (a^2 + b^2), which is its weight by the power heuristic: a is the density of the light's own samples
+  /// there, and b that of the given directions.
   void along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds the radiance of skies to rays that have left the scene along unit directions, less what the opacity of the
-  /// things on the way blocks.
+  /// Adds the radiance of skies to rays that have left the scene along unit directions, reduced by the opacity of what
+  /// they passed.
   void addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves, TmConstVec3 opacity, TmVec3 color) const;
   /// Returns the largest number of samples of the lights that along() may find; 0 if there are none.
   int mostSamples(Batch& batch) const;
@@ -102,7 +102,8 @@ class Lights {
   void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
   void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds what lights send along a lobe's directions to where they have been met. `pdf`: of the samples, weighted.
+  /// Adds the light that arrives along a lobe's directions from where they have met lights. `pdf`: weighted density of
+  /// the samples.
   void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
               const LobeDirections& lobe, TmVec3 Cl);
   // drawn_lights.cpp

@@ -1,6 +1,7 @@
 // Glossy surfaces under lights that have an extent. A highlight is a sum over samples of the light and over samples of
-// the surface's own lobe. Small lights are found by their own samples, and narrow lobes by theirs. The power heuristic
-// weights both (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering").
+// the surface's own lobe. Small lights are found by their own samples, and other lights by the samples of narrow lobes.
+// The power heuristic weights both (Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo
+// Rendering").
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/shade/illuminate.h"
@@ -43,8 +44,8 @@ void stratified(void* host, const TmGrid* g, int32_t sample, int32_t samples, fl
   });
 }
 
-// Returns half as many as the light's samples: twice as many win little where the lobe is narrow, and cost time where
-// it is wide (docs/measured/rays.md).
+// Returns half the number of the light's samples: more would gain little with narrow lobes, and cost time with wide
+// ones (docs/measured/rays.md).
 int32_t lobeSamples(void* host, const TmGrid*) { return (batchOf(host).lights.mostSamples(batchOf(host)) + 1) / 2; }
 
 /// The lobe of RISpec 15.6, (N.H)^e, with the exponent of docs/decisions/0004. Directions are drawn by H with density
@@ -66,7 +67,7 @@ struct BlinnLobe {
     const float cosine = dot(N, H), along = dot(V, H);
     return cosine > 0 && along > 0 ? (exponent + 1) / (2 * kPi) * std::pow(cosine, exponent) / (4 * along) : 0.0f;
   }
-  /// Returns what the radiance of a drawn direction counts: 1 / pi times the lobe over the density.
+  /// Returns the weight of the radiance from a drawn direction: 1 / pi times the lobe over the density.
   float weight(const vec3& L) const {
     const vec3 H = normalizeOr(L + V, N);
     return dot(N, H) > 0 ? 8 * dot(V, H) / (exponent + 1) : 0.0f;
@@ -133,8 +134,8 @@ class Highlight {
     }
   }
 
-  /// Sends paths along the lobe, if indirect light comes by paths. What a filter makes of the light is in its samples
-  /// alone.
+  /// Traces paths along the lobe, if indirect light is traced by paths. Light that a filter changes comes only in its
+  /// samples.
   void addPaths() {
     if (!follows_ || !batch_.context.indirect || !batch_.group.group->attributes->indirect.receive) return;
     for (const int index : batch_.group.lights().among(batch_.scene.indirect))
@@ -145,9 +146,9 @@ class Highlight {
   }
 
  private:
-  /// Indirect light comes from all around. Its samples tell only E/pi and the mean direction. So it is taken for light
-  /// that changes evenly from one side of the hemisphere to the other and has that mean direction. The lobe sees what
-  /// such light sends from the mirrored direction.
+  /// Indirect light comes from all around. Its samples have only E/pi and the mean direction. So it is modelled as
+  /// radiance that changes linearly across the hemisphere and has that mean direction. The lobe reflects this radiance
+  /// from the mirrored direction.
   void addIndirectSample(const LightSample& sample) {
     constexpr float kTilt = 8.0f / 3;  // A radiance of 1 + b.w has a mean direction that leans by 3 b / 8.
     constexpr float kSteepest = 2;
@@ -187,8 +188,8 @@ class Highlight {
     }
   }
 
-  /// Where paths have branched already, chance ends most of those along lobes; the others count for more. Returns that
-  /// factor, or 0.
+  /// Where paths have branched already, most paths along lobes are ended at random, and the others get a higher weight
+  /// (Russian roulette). Returns that factor, or 0.
   float goesOn(int i, float weight) const {
     constexpr float kMostBranches = 0.25f;  // a path of a dozen bounces would have thousands
     const float chance = std::min(0.5f * weight, kMostBranches);
@@ -199,7 +200,7 @@ class Highlight {
   }
 
   BlinnLobe lobeAt(int i) const { return {get(N_, i), get(V_, i), exponent_[i]}; }
-  /// Light counts on the side of N alone: illuminance(P, N, PI/2).
+  /// Only light on the side of N counts, as in illuminance(P, N, PI/2).
   void chooseSide(TmConstVec3 L) { markFacing(g_->count, g_->active, view(N_), L, side_); }
   /// Weights a light's sample against the lobe's own, which may find the light too (multiple importance sampling).
   void weighAgainstLobe(const LightSample& sample) {

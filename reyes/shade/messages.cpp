@@ -39,7 +39,7 @@ int32_t answerComputed(Batch& batch, const TmParamDecl& decl, const RslValue& va
   return 1;
 }
 
-/// Lays an array or matrix that varies out as one of the first active point.
+/// Replaces a varying array or matrix by that of the first active point.
 void takeFirst(Batch& batch, const TmGrid& g, int width, TmValue& value) {
   int first = 0;
   while (first + 1 < g.count && !g.active[first]) ++first;
@@ -50,9 +50,9 @@ void takeFirst(Batch& batch, const TmGrid& g, int width, TmValue& value) {
   value.step = 0;
 }
 
-/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has none unless the
-/// shader has ended. What it begins with, a further parameter of that name in shaders of RSL, is an answer if the
-/// shader never assigns it.
+/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has no value before the
+/// shader has ended. Its initial value, a further parameter of that name in shaders of RSL, is an answer if the shader
+/// never assigns the output.
 int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmGrid& g, std::string_view name,
                               int32_t* type, TmValue* out, bool ended = false) {
   if (!shader) return 0;
@@ -87,7 +87,7 @@ int32_t answerOther(Batch& batch, const BoundShaderPtr& shader, std::string_view
   return answerShaderParameter(batch, shader.get(), g, name, type, out);
 }
 
-/// Finds what the displacement shader has computed at the points. It has run at those that the camera sees alone.
+/// Finds an output of the displacement shader at the points. Only points that the camera sees have such values.
 int32_t answerDisplaced(const Batch& batch, std::string_view name, int32_t* type, TmValue* out) {
   // Points in the air of a Volume have no variables.
   if (batch.context.kind != RayKind::Camera || !batch.points ||

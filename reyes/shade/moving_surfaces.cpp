@@ -55,7 +55,7 @@ class MovingSurfaces {
     return it->second = std::move(call);
   }
 
-  /// Returns what surfaces may ask of a displacement shader; nothing of a surface that moves points.
+  /// Returns the outputs of a displacement shader that surfaces may ask for; none for a surface that moves points.
   std::vector<Param> outputsOf(const std::shared_ptr<const ShaderCall>& displacement) {
     if (!displacement || displacement->name.starts_with(kOfSurface)) return {};
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-// Finds the elements of a batch whose differences tell how values change over a surface.
+// Finds the elements of a batch from whose differences derivatives over a surface are computed.
 #pragma once
 #include "reyes/points.h"
 #include "reyes/shade/arena.h"
@@ -15,8 +15,8 @@ struct Stencil {
   int32_t next[2] = {0, 0};
   explicit operator bool() const { return lo[0] != nullptr; }
   float difference(int d, const float* x, int i) const { return x[hi[d][i]] - x[lo[d][i]]; }
-  /// Returns the change over one micropolygon. It is not divided by u's or v's, which may be 0 along d: polygons have x
-  /// and y.
+  /// Returns the change over one micropolygon. It is not divided by the change of u or v, which may be 0 along d,
+  /// because u and v of polygons are x and y.
   float step(int d, const float* x, int i) const {
     return next[d] == 0 ? difference(d, x, i)
                         : difference(d, x, i) * static_cast<float>(next[d]) / static_cast<float>(hi[d][i] - lo[d][i]);
@@ -26,8 +26,8 @@ struct Stencil {
 /// Centred differences along the lattice of a grid, one-sided at its border.
 Stencil stencilOf(const Grid& grid, Arena& arena);
 
-/// A batch with the neighbours of its points, half a micropolygon away on all four sides: n points become 5n, those of
-/// side k from element (k + 1) n on. Values change by half their steps; light, names and time stay those of the point.
+/// A batch with the neighbours of its points, half a micropolygon away on all four sides: n points become 5n, of which
+/// side k begins at element (k + 1) n. Values change by half their steps; light, names and time are the point's own.
 struct Widened {
   static constexpr int kSides = 4, kWide = 1 + kSides;
   ShadePoints points;

@@ -12,8 +12,8 @@ namespace tomales {
 namespace {
 
 constexpr float kWholeCone = 0.999f * kPi / 2;  ///< Slightly less than pi/2, which shaders give with few digits.
-/// The maxerror of the cache if nobody says one. Shading the hits of rays costs much, so that radiance is interpolated
-/// as that of an indirect light is, and with it the occlusion that the same call asks for.
+/// The maxerror of the cache if none is given. Shading the hits of rays is expensive, so radiance is interpolated as
+/// for an indirect light, and with it the occlusion of the same call.
 const float kErrorOfCoverage = 0, kErrorOfRadiance = IndirectQuery().maxError;
 
 /// Returns what a call of occlusion() or indirectdiffuse() asks.
@@ -37,8 +37,8 @@ HemisphereQuery queryOf(const TmRayOptions& o, const TmOcclusion& asked, const R
   return q;
 }
 
-/// Answers from earlier records what they know, and returns the points that need rays. Records lie at the points that
-/// the eye sees. They hold whole hemispheres.
+/// Answers from earlier records where possible, and returns the points that need rays. Records are at points that the
+/// eye sees, and are about whole hemispheres.
 const uint8_t* interpolate(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& o,
                            const RayQuery& rays, const TmOcclusion& out) {
   const bool plain = batch.context.kind == RayKind::Camera && !o.uniform && o.coneAngle >= kWholeCone &&
@@ -91,7 +91,7 @@ struct OpenSky {
   }
 };
 
-/// Returns false where nothing can be traced.
+/// Returns false if nothing can be traced.
 bool traceHemisphere(Batch& batch, const TmGrid* g, TmConstVec3 P, TmConstVec3 N, const TmRayOptions& options,
                      const TmOcclusion& out) {
   if (!traces(batch)) return false;

@@ -16,17 +16,17 @@ struct ParameterValue {
 };
 
 /// Returns the value for a parameter, or its default if `given` is null. By RISpec 3.2 section 11 a float becomes a
-/// triple of equal components, or the diagonal of a matrix. Besides, the numbers of a triple are taken as they stand
-/// for another kind of triple, an hpoint is divided by its w, and an integer is a float. A value that is too long is
-/// cut; one that is too short is filled up from the default.
+/// triple of equal components, or the diagonal of a matrix. Beyond that, any kind of triple is taken for any other,
+/// without conversion, an hpoint is divided by its w, and an integer becomes a float. A value that is too long is cut;
+/// one that is too short is filled up from the default.
 ParameterValue parameterValue(const TmParamDecl& declared, const Param* given);
 
-/// Returns the type of RIB for a TmType; float for a number that is none.
+/// Returns RIB's type for a TmType; float for an unknown number.
 ValueType valueTypeOf(int32_t type);
-/// Returns the type of shaders for one of RIB; float for those that shaders do not have.
+/// Returns the shaders' type for a type of RIB; float if shaders do not have it.
 TmType tmTypeOf(ValueType type);
-/// Tells whether `given` is this type, without conversion. Integers are floats; points, vectors and normals differ by
-/// the declaration.
+/// Tells whether `given` needs no conversion to this type. Integers count as floats, and points, vectors and normals as
+/// the same.
 bool accepts(int32_t type, ValueType given);
 
 }  // namespace tomales

@@ -12,8 +12,8 @@
 namespace tomales {
 namespace {
 
-/// Returns the lookup of a picture. Option "texture" "width" scales all filters; "filter" is that of lookups that name
-/// none.
+/// Returns the lookup of a picture. Option "texture" "width" scales all filters; "filter" is used for lookups without
+/// their own.
 TextureQuery queryOf(const Batch& batch, const TmGrid* g, const char* name, const TmTextureOptions& o, TmVec3 out) {
   const UserParams& options = batch.scene.scene.options.user;
   const Param *width = findParam(options, "texture:width"), *filter = findParam(options, "texture:filter");

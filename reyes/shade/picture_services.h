@@ -1,4 +1,4 @@
-// Looks pictures up by direction, for shaders and for the rays that they shoot.
+// Looks up pictures by direction, for shaders and for their rays.
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -1,4 +1,4 @@
-// The program that PluginTrial starts: it loads plugins and tells that it still runs.
+// The program that PluginTrial starts: it loads plugins, and reports that it is still running.
 #include <dlfcn.h>
 
 #include <climits>
@@ -26,7 +26,7 @@ void read(const TmParamDecl& p) {
   for (int32_t i = 0; !texts && p.floats && i < p.arrayLength; ++i) read_bytes = read_bytes + (p.floats[i] != 0);
 }
 
-/// Reads all that the renderer reads of a plugin of its version, so that a wild pointer ends this process.
+/// Reads everything that the renderer would read of the plugin, so that a wild pointer crashes this process.
 void read(const TmShaderLibrary* library) {
   if (!library || library->abi != TM_SHADER_ABI || library->structBytes < sizeof(TmShaderLibrary)) return;
   read(library->fault);

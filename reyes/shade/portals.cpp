@@ -3,11 +3,11 @@
 namespace tomales {
 namespace {
 
-/// The largest share of samples that go to portals. The others go by the sky: they are a quarter at least, so that none
-/// brings more than four times what it would bring without portals.
+/// The largest share of samples that go to portals. The others are drawn from the sky. They are at least a quarter, so
+/// no sample weighs more than four times as much as without portals.
 constexpr float kShare = 0.75f;
 
-/// Returns the portal's solid angle, taken at its middle, and at most half of all directions. 0 behind the horizon.
+/// Returns the portal's solid angle, estimated at its middle, and at most a hemisphere; 0 behind the horizon.
 float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 corners[] = {corner, corner + u, corner + v, corner + u + v};
@@ -19,7 +19,7 @@ float weightOf(const Portal& portal, const vec3& P, const vec3& N) {
   return seen < 2 * kPi * distance * distance * distance ? seen / (distance * distance * distance) : 2 * kPi;
 }
 
-/// Returns the density over solid angle of positions that are even on the portal.
+/// Returns the density over solid angle of positions that are uniform on the portal.
 float pdfOf(const Portal& portal, const vec3& P, const vec3& L) {
   const auto& [corner, u, v, normal] = portal;
   const vec3 to = corner - P;

@@ -1,5 +1,5 @@
-// Light and rays are asked for at the points of a batch alone; their neighbours, which serve derivatives, get copies of
-// the answers.
+// Light and rays are computed only at the points of a batch; their neighbours, which are there for derivatives, get
+// copies of the answers.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -38,8 +38,8 @@ void forActive(const TmGrid* g, const Body& body) {
     if (g->active[i]) body(i);
 }
 
-/// Sets how much of a light counts at each point: where it is lit, one less its output __nondiffuse or __nonspecular. A
-/// null `without` is 0.
+/// Sets the share of a light that counts at each point: 1 minus its output __nondiffuse or __nonspecular where it is
+/// lit, and 0 elsewhere. A null `without` stands for 0.
 inline void setShares(int n, const uint8_t* lit, const float* without, float* share) {
   for (int i = 0; i < n; ++i) share[i] = lit[i] ? (without ? 1 - without[i] : 1.0f) : 0.0f;
 }

@@ -56,7 +56,7 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
     result.color = batch.arena.vec3(g->count);
     result.opacity = batch.arena.vec3(g->count);
   }
-  // Diffuse rays bring no sky, as they bring no area lights: diffuse() has asked for that light.
+  // Diffuse rays return no sky, as they return no area lights: diffuse() has asked for that light.
   if (color.x && query.kind == RayKind::Specular && query.seesAreaLights &&
       batch.context.seesLightsInMirrors(batch.points->group()) && query.maxDistance >= kRiInfinity)
     result.leaves = batch.arena.bytes(g->count);
@@ -77,8 +77,8 @@ void trace(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3
   primary.spread(distance);
 }
 
-/// What the rays of a call of gather() are to bring. Values of volume: are those of the surface that is met, after the
-/// ray has crossed the volumes of the surface that asks.
+/// The outputs of the rays of a call of gather(). Values of "volume:" are the values of the hit surface after the ray
+/// has crossed the volumes of the asking surface.
 struct Gathered {
   RayResult result;
   TmVec3 color{}, opacity{};  ///< volume:Ci and volume:Oi; null unless one is asked for.

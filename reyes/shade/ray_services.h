@@ -1,4 +1,4 @@
-// The values that a ray of gather() gives. Behind TmServices::gather.
+// The values that a ray of gather() returns. Used by TmServices::gather.
 #pragma once
 #include <initializer_list>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Shoots the rays of a shader's call: checks options, stratifies directions over a cone, sets footprints.
+// Sets up the rays of a shader's call: checks options, stratifies directions over a cone, and sets footprints.
 #pragma once
 #include "reyes/shade/batch.h"
 
@@ -7,18 +7,18 @@ namespace tomales {
 /// The limit of the samples that a shader asks for at one point.
 inline constexpr int kMostSamples = 1 << 16;
 
-/// Returns the options of trace(), whose directions the caller may draw itself, and of the other services.
+/// Return the options of trace(), whose directions the caller may draw itself, and those of the other services.
 TmRayOptions drawnRayOptions(const Batch& batch, const TmRayOptions* given);
 TmRayOptions rayOptions(const Batch& batch, const TmRayOptions* given);
 
 RayQuery rayQuery(const TmRayOptions&, RayKind);
-/// Rays of narrow cones are specular, of wide ones diffuse.
+/// Rays of narrow cones are specular, and rays of wide ones diffuse.
 RayQuery rayQuery(const TmRayOptions&);
 
 /// Tells whether this batch may trace. Reports a shader that does not declare TM_TRACES.
 bool traces(const Batch& batch);
 
-/// Ray `ray` of all points: a direction in a cone around each axis, and where it starts.
+/// Ray number `ray` of all points: a direction in a cone around each axis, and its origin.
 class Cone {
  public:
   Cone(Batch& batch, const TmGrid* g, const TmRayOptions& options);
@@ -37,8 +37,8 @@ class Cone {
   TmVec3 origin_, direction_;
 };
 
-/// Sets ray differentials: a ray starts as wide as its micropolygon, and widens by the turn of the axis over that and
-/// by its share of the cone.
+/// Sets ray differentials: a ray starts as wide as its micropolygon, and widens by the turn of the axis over that
+/// micropolygon and by the ray's share of the cone.
 void setFootprints(Batch& batch, const TmGrid* g, TmConstVec3 axis, const TmRayOptions& options, RayQuery& query);
 
 }  // namespace tomales

@@ -115,7 +115,7 @@ const TmShader* ShaderRegistry::Impl::keep(const RslFound& found) {
   return found.shader;
 }
 
-/// Tells of a name with folders whose last part alone was found.
+/// Reports a name with folders of which only the last part was found.
 void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslFound& found) {
   const std::string written = withoutShaderEnding(name);
   if (!fs::path(written).has_parent_path() || found.file.ends_with(written + ".sl")) return;
@@ -123,8 +123,8 @@ void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslF
              fmt::format("shader \"{}\" is not there; {} is taken, which has its name", name, found.file), name);
 }
 
-/// Tells a user whose folder has a shader with a name of RISpec's, such as "plastic", which of the two is used.
-/// `because` follows the names. `hasOther` tells that --standard-shaders can bring the other one.
+/// If a folder has a shader with a standard name such as "plastic", reports which of the two is used. `because` follows
+/// the names. `hasOther`: --standard-shaders can select the other one.
 void ShaderRegistry::Impl::tellOfStandardName(const TmShader& used, const std::string& file, const std::string& because,
                                               bool hasOther) {
   if (file.empty()) return;

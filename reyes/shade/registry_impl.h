@@ -1,5 +1,5 @@
 // The members of the registry of shaders. The search for shaders is in registry.cpp; the loading of plugins and the
-// checks of what they bring are in registry_plugins.cpp. Private to the registry. Threads: only with `mutex` held.
+// checks of their shaders are in registry_plugins.cpp. Private to the registry. Threads: only with `mutex` held.
 #pragma once
 #include <map>
 #include <mutex>
@@ -13,7 +13,8 @@
 
 namespace tomales {
 
-/// Shaders whose look RISpec 3.2 (appendix A) fixes: a scene that names one gets ours, which tests hold against it.
+/// Tells whether RISpec 3.2 (appendix A) defines a shader of this name. A scene that names one gets ours, which tests
+/// compare with that definition.
 bool isOfSpecification(std::string_view name);
 
 struct ShaderRegistry::Impl {
@@ -37,7 +38,7 @@ struct ShaderRegistry::Impl {
   std::map<const TmShader*, const TmShader*> displacements{};               ///< by the surfaces that move their points
   using Question = std::tuple<std::string, int, std::string, std::string>;  ///< The arguments of found().
   std::map<Question, const TmShader*> answers{};
-  std::map<Question, std::string> broken{};  ///< The texts with errors that were found for them.
+  std::map<Question, std::string> broken{};  ///< For each question, the shader file with errors that was found.
   FunctionPlugins functionPlugins{log};
 
   void forgetAnswers() {
@@ -69,11 +70,12 @@ struct ShaderRegistry::Impl {
   const TmShader* keep(const RslFound& found);
   void tellOfStandardName(const TmShader& used, const std::string& file, const std::string& because = {},
                           bool hasOther = true);
-  /// Returns the file that is called as a shader of RISpec's; empty if there is none, or if the shader is not of those.
+  /// Returns a file with the name of a standard shader of RISpec; empty if there is none, or if `shader` is no standard
+  /// one.
   std::string fileOfStandardName(const TmShader& shader, const std::string& searchPath,
                                  const std::string& beside) const;
-  /// Returns the shader of that file if it has parameters that ours lacks, since such a file is another shader, which
-  /// the scene beside it means. Returns ours otherwise.
+  /// Returns the shader of that file if it has parameters that ours lacks: then it is another shader, and the scene
+  /// beside it means that one. Otherwise returns ours.
   const TmShader* ofStandardName(const TmShader& ours, const std::string& searchPath, const std::string& beside);
   const TmShader* known(const std::string& name, TmKind kind) const {
     const auto it = shaders.find({kind, name});

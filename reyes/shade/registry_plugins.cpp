@@ -11,8 +11,8 @@
 namespace tomales {
 namespace {
 
-/// Tells what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends fields
-/// (shader_api.h), so a larger struct of the same ABI starts with ours.
+/// Returns what is wrong with the version of a plugin's struct; empty if nothing is. A later release only appends
+/// fields (shader_api.h), so a larger struct of the same ABI starts with ours.
 template <class Versioned>
 std::string otherVersion(const Versioned* v) {
   if (!v) return "is NULL";
@@ -24,11 +24,11 @@ std::string otherVersion(const Versioned* v) {
       v->abi, v->structBytes, TM_SHADER_ABI, sizeof(Versioned));
 }
 
-/// Tells what a shader of our ABI lacks; empty if it lacks nothing.
+/// Returns what a shader of our ABI lacks; empty if it lacks nothing.
 std::string lackOf(const TmShader& s) {
   if (!s.name || !*s.name) return "a name";
   if (!s.shade) return "a function";
-  if (s.kind < TM_SURFACE || s.kind > TM_IMAGER) return "a kind that there is";
+  if (s.kind < TM_SURFACE || s.kind > TM_IMAGER) return "a valid kind";
   if (s.paramCount < 0 || (s.paramCount > 0 && !s.params)) return "its parameters";
   if (s.paramCount > 0 && s.paramBytes != sizeof(TmParamDecl))
     return fmt::format("parameters of {} bytes each, and has them of {}", sizeof(TmParamDecl), s.paramBytes);
@@ -38,7 +38,7 @@ std::string lackOf(const TmShader& s) {
       return fmt::format("a name, length or type of parameter {}", k + 1);
     if (p.role == TM_ROLE_NONE) continue;
     const RoleInfo* role = roleInfo(p.role);
-    if (!role) return fmt::format("a role that there is of parameter \"{}\"", p.name);
+    if (!role) return fmt::format("a valid role of parameter \"{}\"", p.name);
     if (role->type != TM_TYPE_OF(p.type) || role->kind != s.kind)
       return fmt::format("a type or kind that fits the role {} of parameter \"{}\"", role->name, p.name);
   }

@@ -10,8 +10,8 @@ namespace tomales {
 namespace {
 
 constexpr size_t kRemembered = 4;  ///< The number that TmServices::illuminance promises.
-constexpr int kSamples = 1 << 20;  ///< The numbers of samples that one place may have.
-constexpr int kNumbers = 1 << 10;  ///< The numbers of places, after which they begin anew.
+constexpr int kSamples = 1 << 20;  ///< Most samples at one place.
+constexpr int kNumbers = 1 << 10;  ///< Number of places after which their numbers repeat.
 
 bool sameBits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
@@ -27,8 +27,8 @@ bool atOwnPoints(const Batch& batch, const TmGrid* g, const TmIlluminance& query
   return true;
 }
 
-/// Moves the points, and gives each position another number, so that an average along a march does not draw the same
-/// samples at every step.
+/// Moves the points, and gives each position a different sample name, so that a march does not draw the same samples at
+/// every step.
 void moveTo(TmConstVec3 P, const uint8_t* active, bool inAir, ShadePoints& points) {
   points.setInAir(inAir);
   for (int i = 0; i < points.count(); ++i) {
@@ -75,7 +75,7 @@ LightMessage copied(const TmMessage& sent, const TmGrid* g, Arena& arena) {
 
 RemoteBatch::RemoteBatch(const Batch& asking, const TmGrid* g, const TmIlluminance& query, bool inAir, int n)
     : number(n), context(asking.context), points(*asking.points), batch(asking.scene, asking.group, context, *arena) {
-  context.answers = nullptr;  // answers are named by the light alone, not by where it arrives
+  context.answers = nullptr;  // answers are identified by the light alone, not by the position
   moveTo(query.P, g->active, inAir, points);
   request.category = query.category ? query.category : "";
   for (int i = 0; i < query.sentCount; ++i) request.sent.push_back(copied(query.sent[i], g, *arena));

@@ -59,7 +59,7 @@ constexpr TmParamDecl kOfLights[] = {
     standard("sfpz", TM_ROLE_SHADOW_MAP, TM_STRING, "towards +z"),
     standard("sfnz", TM_ROLE_SHADOW_MAP, TM_STRING, "towards -z"),
     standard("shadowvariance", TM_ROLE_SHADOW_VARIANCE, TM_FLOAT,
-             "of the share of light that passes: what its shadow rays may leave open; 0: all are traced"),
+             "variance up to which a point traces shadow rays, of the mean share that passes; 0: all are traced"),
 };
 
 constexpr TmParamDecl kOfVolumes[] = {

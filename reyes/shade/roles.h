@@ -1,4 +1,4 @@
-// The facts that the host knows of each role of a parameter (TmRole).
+// The facts about each role of a parameter (TmRole).
 #pragma once
 #include "reyes/shade.h"
 
@@ -11,7 +11,7 @@ struct RoleInfo {
   TmKind kind;  ///< The kind of shaders that may declare it.
 };
 
-/// Returns the product of those parameters of a light that are factors (isFactor()), where a request gives `params`.
+/// Returns the product of the parameters of a light that are factors (isFactor()), for a request that gives `params`.
 vec3 factorOf(const TmShader& light, const std::vector<Param>& params);
 /// Returns null if there is no such role.
 const RoleInfo* roleInfo(int32_t role);

@@ -134,7 +134,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     if (const fs::path file = fs::path(folder) / (name + ".sl"); fs::is_regular_file(file, none))
       out.push_back(file.string());
   if (!out.empty()) return out;
-  // Exporters name files as seen from the folder of the project.
+  // Exporters name files relative to the folder of the project.
   if (const size_t slash = name.rfind('/'); slash != std::string::npos)
     return candidates(name.substr(slash + 1), folders);
   constexpr int kMostFiles = 5000;  // a folder with more files is not searched to its end

@@ -92,8 +92,8 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
       const Stencil& s = batch.stencil;
       return vec3(s.difference(d, P.x, i), s.difference(d, P.y, i), s.difference(d, P.z, i));
     };
-    // The normal is on the side of the geometric one, since a shader cannot know which way dPdu ^ dPdv points. Of a
-    // polygon, whose u and v are its x and y, du or dv may be a rounding error of any sign.
+    // The normal is put on the side of the geometric one, since a shader cannot know which way dPdu ^ dPdv points. On a
+    // polygon, whose u and v are its x and y, du or dv may be a rounding error of either sign.
     const vec3 across = cross(get(g->dPdu, i) * g->du[i], get(g->dPdv, i) * g->dv[i]);
     const float side = dot(across, get(g->Ng, i)) < 0 ? -1.0f : 1.0f;
     set(out, i, normalizeOr(side * cross(along(0), along(1)), get(g->N, i)));
@@ -102,7 +102,7 @@ void calculateNormal(void* host, const TmGrid* g, TmConstVec3 P, TmVec3 out) {
 
 void report(void* host, const TmGrid*, int32_t severity, const char* message) {
   const Batch& batch = batchOf(host);
-  // Messages with the same beginning count as alike, since a value may follow; and their number is limited, so that a
+  // Messages with the same beginning count as one, since a value may follow; and their number is limited, so that a
   // shader cannot fill the log.
   constexpr size_t kAlike = 24, kSubjects = 4096;
   const std::string text = message;

@@ -1,5 +1,5 @@
-// The table of TmServices, in parts: each function fills in, by name, the calls that its file implements, so that a new
-// call is written in shader_api.h and in that file alone.
+// The table of TmServices, in parts: each function sets, by name, the calls that its file implements. So a new call is
+// added in shader_api.h and in that file alone.
 #pragma once
 #include "reyes/shade/batch.h"
 

@@ -24,7 +24,7 @@ vec2 project(const mat4& ndcFromWorld, const vec3& p) {
   return vec2(h) / h.w;
 }
 
-/// Returns the edges u and v, each turned round if need be, so that they widen a square and do not narrow it.
+/// Returns the edges u and v, each reversed if needed, so that they widen a square instead of narrowing it.
 std::pair<vec2, vec2> widening(const vec2& square, const vec2& u, const vec2& v) {
   const auto area = [&](const vec2& a, const vec2& b) { return (square.x + a.x) * (square.y + b.y) - a.y * b.x; };
   std::pair<vec2, vec2> best{u, v};
@@ -118,7 +118,7 @@ struct ShadowMap::View {
   vec2 center, scale;  ///< texel = center + scale (x, y) [/ z]
   bool perspective;
 
-  /// Returns the depth of the receiver's plane where the ray of a texel position meets it, or that of P if this leaves
+  /// Returns the depth of the receiver's plane at a texel position, or the depth of P if the two differ by more than
   /// `reach`.
   float depth(const vec2& texelAt, float reach) const {
     const vec2 xy = (texelAt - center) / scale;

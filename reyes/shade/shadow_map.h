@@ -20,13 +20,13 @@ class PictureReader;
 /// A point of a plane, in world space, that may lie in shadow.
 struct ShadowReceiver {
   vec3 P, N;
-  vec3 edgeU, edgeV;  ///< The micropolygon around it, which the lookup covers.
+  vec3 edgeU, edgeV;  ///< The edges of its micropolygon, over which the lookup filters.
 };
 
 struct ShadowLookup {
   /// Distance by which a surface must be nearer to the light to cast a shadow; negative: by slope and texel size.
   float bias = -1;
-  float blur = 0;    ///< Added to the covered region, as a fraction of the map.
+  float blur = 0;    ///< Added to the filtered region, as a fraction of the map.
   float width = 1;   ///< Scales the micropolygon.
   int samples = 16;  ///< At least 1.
   uint32_t seed = 0;
@@ -38,8 +38,9 @@ class ShadowMap {
   static std::unique_ptr<const ShadowMap> read(const std::string& path, std::string& error);
 
   /// Returns the share of light that is blocked: 1 for all, 0 outside the map. It is percentage-closer filtering
-  /// (Reeves, Salesin and Cook 1987); in deep maps each sample is one less what the opacity before it lets through
-  /// (Lokovic and Veach 2000). The receiver's depth is followed along its plane, so that a large region needs no bias.
+  /// (Reeves, Salesin and Cook 1987); in deep maps each sample is the light that the opacity in front of the point
+  /// blocks (Lokovic and Veach 2000). The receiver's depth is followed along its plane, so that a large region needs no
+  /// bias.
   vec3 shadow(const ShadowReceiver& receiver, const ShadowLookup& lookup) const;
 
  private:
@@ -49,7 +50,7 @@ class ShadowMap {
   };
   struct View;
   void readCamera(const PictureShape& shape, const DepthCamera& camera);
-  // Both read the channel `z` of a picture. They return false if it cannot be read; its error() then says why.
+  // Both read the channel `z` of a picture. They return false if it cannot be read; the reader's error() then says why.
   bool readFlat(PictureReader& in, int z);
   bool readDeep(PictureReader& in, int z);
   /// Finds the receiver in the map, with its edges multiplied by `width`. Returns nothing if it is outside of the map.

@@ -1,6 +1,6 @@
 // Samples a light that is all around, at infinity: half by the brightness of its picture, half by the cosine with the
-// normal; without a picture by the cosine alone. A bright sun of a few texels gets as many samples as its light is
-// worth. If there are portals, most samples go through them first. Space: current. Threads: const members may be called
+// normal; without a picture by the cosine alone. A bright sun of a few texels gets samples in proportion to its light.
+// If there are portals, most samples go through them first. Space: current. Threads: const members may be called
 // concurrently.
 #pragma once
 #include <map>
@@ -28,7 +28,8 @@ class Sky {
  public:
   /// Makes a sky that is equally bright everywhere.
   Sky() = default;
-  /// `picture` stands in world space. One that cannot be read is reported, and the sky is even.
+  /// `picture` is oriented in world space. A picture that cannot be read is reported, and the sky is equally bright
+  /// everywhere.
   Sky(const Textures& textures, const std::string& picture, const SourceLoc& where, const std::string& user,
       const mat3& worldFromCurrent);
 
@@ -36,7 +37,7 @@ class Sky {
   const Portals& portals() const { return portals_; }
 
   /// Returns a unit direction from which to light a point P with unit normal N, and its density over solid angle. For
-  /// an N of 0, in the air, directions are even.
+  /// an N of 0, in the air, directions are uniform.
   vec3 sample(const vec3& P, const vec3& N, vec2 xi, float& pdf) const;
   float pdf(const vec3& P, const vec3& N, const vec3& L) const;
 
@@ -51,10 +52,10 @@ class Sky {
   Portals portals_;
 };
 
-/// Returns the orientation of a sky that stands in a space, without the scale of that space.
+/// Returns the orientation of a sky in a space, without the scale of that space.
 mat3 skyFromCurrent(const mat4& currentFromSpace);
 
-/// The skies of pictures that shaders name, which stand in the world. Threads: concurrent calls are safe.
+/// The skies of pictures that shaders name, in world space. Threads: concurrent calls are safe.
 class Skies {
  public:
   Skies(const Textures& textures, const mat3& worldFromCurrent)

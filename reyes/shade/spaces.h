@@ -18,14 +18,15 @@ struct Space {
 /// Returns nothing if there is no such space.
 std::optional<Space> findSpace(const Batch& batch, const std::string& name);
 
-/// Transforms from current space to the directions by which environment() looks up a picture that stands in the named
+/// Returns the rotation from current space to the directions by which environment() looks up a picture in the named
 /// space (null: "world"). An unknown name is reported, and the world is used.
 mat3 environmentDirections(const Batch& batch, const char* space);
 
-/// Transforms points, and nothing else, to spaces that are projected.
+/// Transforms a point to a projected space. Vectors and normals have no such transformation.
 vec3 projectedFromCurrent(const Batch& batch, Space::Kind kind, const vec3& p);
-/// A depth of 0 means the near clipping plane, as in RISpec. Shaders often ask for the corners of the picture by
-/// transform("NDC", "screen", point (x, y, 0)), and no position in the picture has the depth of the eye.
+/// Transforms a point back from a projected space. A depth of 0 means the near clipping plane, as in RISpec. Shaders
+/// often ask for the corners of the picture by transform("NDC", "screen", point (x, y, 0)), and no position in the
+/// picture has the depth of the eye.
 vec3 currentFromProjected(const Batch& batch, Space::Kind kind, const vec3& p);
 
 }  // namespace tomales

@@ -1,4 +1,4 @@
-// The shader in place of one that is missing, so loud that nobody ships a frame with it.
+// The shader that replaces a missing one, so conspicuous that nobody ships a frame with it.
 #pragma once
 #include "reyes/shader_api.h"
 

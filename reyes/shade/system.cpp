@@ -7,10 +7,11 @@
 namespace tomales {
 namespace {
 
-/// Points: their light samples take a few hundred kB, which stay in the second-level cache.
+/// Number of points in a sub-batch: their light samples take a few hundred kB, which fit into the second-level cache.
 constexpr int kSubBatch = 256;
 
-/// Replaces bad results: by the substitute if the shader has thrown; else points that are not finite become black.
+/// Replaces bad results: all by the substitute if the shader has thrown; otherwise points that are not finite become
+/// black.
 void repair(Batch& batch, const BoundShader& shader, bool finished) {
   if (finished) return batch.blackOutNonFinite(shader);
   for (int i = 0; i < batch.tm.count; ++i) {

@@ -1,4 +1,4 @@
-// Shared by the parts of ShadingSystem.
+// Private to ShadingSystem: declarations that its source files share.
 #pragma once
 #include <chrono>
 
@@ -14,7 +14,7 @@ struct ShadingSystem::Impl : BoundScene {
   LightUse lightUse{lights.size()};
 };
 
-/// Adds the time of its life to the figures of a shader.
+/// Adds the time between its construction and destruction to the figures of a shader.
 class ShaderTimer {
  public:
   ShaderTimer(Stats& stats, const BoundShader& shader, int vertices)

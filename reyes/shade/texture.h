@@ -15,7 +15,7 @@ class Textures {
   /// Fills out.x (and y, z for three channels). Returns false if the picture is unreadable: that is reported, and `out`
   /// is magenta.
   bool lookup(const TextureQuery& query, const SourceLoc& where, const std::string& user, TmVec3 out) const;
-  /// Does what TextureCache::info() does, and reports nothing.
+  /// Does the same as TextureCache::info(). It reports nothing.
   bool info(const std::string& name, const std::string& what, std::vector<float>& numbers, std::string& text) const;
 
  private:

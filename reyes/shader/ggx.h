@@ -5,8 +5,7 @@
 // Spaces: all directions have unit length and point away from the surface, in any one space. N is the surface's normal,
 // V leads to the viewer, L to the light, and H is a facet's normal. NV, NL, NH and VH are their cosines.
 //
-// Width: alpha is above 0. The slopes of the facets reach alpha in the middle of the distribution. `disney` takes
-// roughness^2 for it.
+// Width: alpha > 0 is the median slope of the facets. `disney` uses roughness^2.
 //
 // Units: distributions and densities are 1/sr. reflection() is 1/sr too: it is a BRDF but for the Fresnel term. Light
 // of this renderer's lights is E/pi, so that a sample of a light adds Cl * pi * NL * F * reflection().

@@ -13,7 +13,8 @@
 
 namespace rsl {
 
-/// A value in a parameter list. It notes whether its reader wanted another type or a single number.
+/// A value in a parameter list. It records whether its reader asked for another type, or for one number where points
+/// differ.
 class Setting {
  public:
   Setting() = default;
@@ -52,10 +53,10 @@ class Setting {
 
   TmType type = TM_FLOAT;
   const float* varying[3] = {nullptr, nullptr, nullptr};
-  TmVec3 fills{};                  ///< The arrays to fill: x alone for a number, else all; null x if there are none.
-  int32_t target = -1;             ///< The caller's own number for the variable that the service fills, or -1.
-  mutable bool fits = true;        ///< False once a reader has wanted another type.
-  mutable bool tookFirst = false;  ///< True once a reader has wanted one value although the points' values differ.
+  TmVec3 fills{};       ///< The arrays to fill: x alone for a number, otherwise all three; null x if there are none.
+  int32_t target = -1;  ///< The caller's own number for the variable that the service fills, or -1.
+  mutable bool fits = true;        ///< False once a reader has asked for another type.
+  mutable bool tookFirst = false;  ///< True once a reader has asked for one value although the points' values differ.
 
  private:
   void wanted(TmType as) const {
@@ -114,7 +115,7 @@ inline Entry set(TmRayOptions& o, std::string_view name, const Setting& v) {
   return {};
 }
 
-/// RSL leaves it to the scene how exact the answers have to be.
+/// Returns options whose accuracy the scene decides, as RSL has it.
 inline TmOcclusion interpolatedWhereAllowed() {
   TmOcclusion o = tmOcclusionDefaults();
   o.maxVariation = -1;
@@ -181,7 +182,7 @@ inline Entry set(PhotonList& o, std::string_view name, const Setting& v) {
 struct CloudList {
   TmCloudOptions cloud = tmCloudDefaults();
   float radius = 0;
-  bool hasRadius = false;  ///< True if one radius was given for all points, of which the caller makes cloud.radius.
+  bool hasRadius = false;  ///< True if one radius was given for all points, from which the caller makes cloud.radius.
 };
 inline Entry set(CloudList& o, std::string_view name, const Setting& v) {
   if (name == "coordsystem")
@@ -272,9 +273,9 @@ inline Entry set(TmSubsurfaceOptions& o, std::string_view name, const Setting& v
   return {};
 }
 
-/// The list of illuminance(). "lightcache" "refresh" makes lights run again. "send:light:NAME" sets a parameter of the
-/// lights that have one of that name. "light:NAME" names a variable that each sample fills with a parameter or output
-/// of its light.
+/// The list of illuminance(). "lightcache" "refresh" makes lights run again. "send:light:NAME" sets the parameter NAME
+/// of lights that have one. "light:NAME" names a variable that each sample fills with a parameter or output of its
+/// light.
 struct LightList {
   /// A value to send. It is a copy, since the caller's variables may change before the last light has run.
   struct Sent {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
-/// Belongs before functions with static variables, so that each plugin and the renderer has its own. Otherwise all that
-/// are loaded would share the variables of the first one, whatever release it is of.
+/// Stands before functions with static variables, so that the renderer and each plugin have their own. Otherwise all
+/// loaded plugins would share the variables of the first one, even one of another release.
 #define TM_OF_THIS_PLUGIN __attribute__((visibility("hidden")))
 
-/// Belongs before a function of plain loops without branches. It is built for SSE2, AVX2 and AVX-512, of which the CPU
-/// picks one, and gives the same bits with each. A build that wants one kind alone defines it as nothing.
+/// Stands before a function of plain loops without branches. The function is built for SSE2, AVX2 and AVX-512, and
+/// chosen by CPU; all give the same bits. A build for one of them defines this macro as nothing.
 #if defined(RSL_HOT)
 #elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
@@ -48,7 +48,7 @@ RSL_INLINE Vec3 normalize(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a / l : Vec3{};
 }
-/// Gives two unit vectors that are perpendicular to the unit vector n and to each other (Duff et al. 2017, "Building an
+/// Sets two unit vectors that are perpendicular to the unit vector n and to each other (Duff et al. 2017, "Building an
 /// Orthonormal Basis, Revisited").
 RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
   const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
@@ -59,7 +59,7 @@ RSL_INLINE void orthonormalBasis(Vec3 n, Vec3& tangent, Vec3& bitangent) {
 RSL_INLINE Vec3 faceforward(Vec3 N, Vec3 I, Vec3 Ng) { return dot(I, Ng) > 0 ? -N : N; }
 RSL_INLINE Vec3 reflect(Vec3 I, Vec3 N) { return I - 2 * dot(I, N) * N; }
 /// Returns the refracted direction, or zero for total reflection (RISpec 15.2). I and N have unit length, and N points
-/// against I. eta is the index of refraction before the surface over that behind it.
+/// against I. eta is the index of refraction on I's side of the surface over the index on the other side.
 RSL_INLINE Vec3 refract(Vec3 I, Vec3 N, float eta) {
   const float c = -dot(I, N), k = 1 - eta * eta * (1 - c * c);
   return k < 0 ? Vec3{} : eta * I + (eta * c - std::sqrt(k)) * N;
@@ -83,8 +83,8 @@ RSL_INLINE float smoothstep(float lo, float hi, float x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Returns a where the condition holds, else b. GCC may turn a conditional expression into a branch, for instance
-/// around a call or a conversion to int and back; it never turns this into one.
+/// Returns a if the condition holds, and b otherwise, without a branch. GCC may turn a conditional expression into a
+/// branch, for instance around a call or a conversion to int and back.
 RSL_INLINE float chosen(bool condition, float a, float b) {
   const uint32_t mask = condition ? 0xffffffffU : 0;
   return __builtin_bit_cast(float,

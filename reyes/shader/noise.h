@@ -1,5 +1,5 @@
 // RSL's noise, pnoise and cellnoise of one to four dimensions, and spline with all its bases and their inverses (RISpec
-// 15.1). The same bits on every machine: integer hashes and IEEE arithmetic alone.
+// 15.1). Results have the same bits on every machine, because they use only integer hashes and IEEE arithmetic.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -57,7 +57,7 @@ constexpr float kNearLattice = 0x1p19f;  ///< The distance from the origin up to
 RSL_INLINE bool isNearLattice(Vec3 p) {
   return (std::abs(p.x) < kNearLattice) & (std::abs(p.y) < kNearLattice) & (std::abs(p.z) < kNearLattice);
 }
-/// Does the same as latticePlace() for a quarter of the work, but for the sign of a zero. Pre: isNearLattice(p).
+/// Does the same as latticePlace(), except for the sign of zeros, with a quarter of the work. Pre: isNearLattice(p).
 RSL_INLINE LatticePlace nearLatticePlace(Vec3 p) {
   const int32_t x = static_cast<int32_t>(p.x), y = static_cast<int32_t>(p.y), z = static_cast<int32_t>(p.z);
   const int32_t dx = static_cast<float>(x) > p.x, dy = static_cast<float>(y) > p.y, dz = static_cast<float>(z) > p.z;
@@ -76,7 +76,7 @@ RSL_INLINE float signedNoiseAt(const LatticePlace& p) {
   };
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
-/// Gradient noise in [-1, 1]: zero on the integer lattice, twice differentiable, the same on every machine.
+/// Returns gradient noise in [-1, 1], which is zero on the integer lattice and twice differentiable.
 RSL_INLINE float signedNoise(Vec3 p) { return signedNoiseAt(latticePlace(p)); }
 
 namespace noise_detail {
@@ -92,7 +92,7 @@ RSL_INLINE uint32_t hash4(int32_t x, int32_t y, int32_t z, int32_t w) {
   return h;
 }
 
-/// A coordinate as a cell and the position in it. A period other than 0 joins the ends of the lattice.
+/// A coordinate as a cell and a position in it. With a period other than 0 the lattice repeats.
 struct Axis {
   int32_t lo, hi;
   float f;
@@ -108,8 +108,8 @@ struct Axis {
   RSL_INLINE float from(int end) const { return f - static_cast<float>(end); }
 };
 
-/// Returns the dot product with one of 32 gradients, to the edges of a hypercube (Perlin): three coordinates of p, with
-/// signs.
+/// Returns the dot product with one of 32 gradients, towards the edges of a hypercube (Perlin): a sum of three
+/// coordinates with signs.
 RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
   const uint32_t skipped = hash >> 3 & 3;
   const auto add = [&](float sum, uint32_t k, float p) RSL_INLINED {
@@ -122,8 +122,8 @@ RSL_INLINE float gradient4(uint32_t hash, float x, float y, float z, float w) {
 
 }  // namespace noise_detail
 
-/// Gradient noise in [-1, 1] of four dimensions, or of fewer where arguments are left out. It is zero on the integer
-/// lattice and twice differentiable.
+/// Returns gradient noise of four dimensions in [-1, 1], which repeats along axes with a period. It is zero on the
+/// integer lattice and twice differentiable.
 RSL_INLINE float signedNoise4(Vec3 p, float t, Vec3 period = {}, float tPeriod = 0) {
   using noise_detail::Axis;
   const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z), w(t, tPeriod);
@@ -137,7 +137,7 @@ RSL_INLINE float signedNoise4(Vec3 p, float t, Vec3 period = {}, float tPeriod =
   const auto cube = [&](int i) RSL_INLINED { return mix(face(i, 0), face(i, 1), u[1]); };
   return clamp(mix(cube(0), cube(1), u[0]), -1, 1);
 }
-/// signedNoise(p) that repeats with the period.
+/// Returns signedNoise(p) with the given period along each axis.
 RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
   using noise_detail::Axis;
   const Axis x(p.x, period.x), y(p.y, period.y), z(p.z, period.z);
@@ -151,11 +151,11 @@ RSL_INLINE float signedPeriodicNoise(Vec3 p, Vec3 period) {
   return clamp(mix(face(0), face(1), w), -1, 1);
 }
 
-// Noise of one or two dimensions is a cut through three, between the planes of the lattice: on the planes the gradients
-// would vanish more often than not.
+// Noise of one or two dimensions is a cut through noise of three, between the planes of the lattice: on the planes most
+// gradients would vanish.
 constexpr float kNoiseCut = 0.5f;
 
-/// RSL's noise(): gradient noise, scaled to [0, 1].
+/// Implements RSL's noise(): gradient noise, scaled to [0, 1].
 RSL_INLINE float noiseAt(const LatticePlace& p) { return 0.5f + 0.5f * signedNoiseAt(p); }
 RSL_INLINE float noise(Vec3 p) { return noiseAt(latticePlace(p)); }
 RSL_INLINE float noise(float x) { return noise(Vec3{x, kNoiseCut, kNoiseCut}); }
@@ -169,7 +169,7 @@ RSL_INLINE float pnoise(float x, float y, float xPeriod, float yPeriod) {
 RSL_INLINE float pnoise(Vec3 p, float t, Vec3 period, float tPeriod) {
   return 0.5f + 0.5f * signedNoise4(p, t, period, tPeriod);
 }
-/// Noise that is constant in each unit cell, in [0, 1).
+/// Returns noise in [0, 1) that is constant in each unit cell.
 RSL_INLINE float cellnoiseAt(const LatticePlace& p, int32_t t) {
   return static_cast<float>(static_cast<int32_t>(noise_detail::hash4(p.x, p.y, p.z, t) >> 8)) * 0x1p-24f;
 }
@@ -246,8 +246,8 @@ inline void splineWeights(Basis basis, float t, float* w) {
       w[3] = 0.5f * (t3 - t2);
   }
 }
-/// Returns the value at x, clamped to [0, 1], of a curve through n >= 4 knots, and at 0 if x is NaN. Hermite knots are
-/// points and tangents by turns.
+/// Returns the value of a curve of n >= 4 knots at x, which is clamped to [0, 1]; NaN counts as 0. Hermite knots
+/// alternate between points and tangents.
 template <class T>
 T spline(Basis basis, float x, const T* knots, int n) {
   const int stride = basis == Basis::Bezier    ? 3

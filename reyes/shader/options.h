@@ -1,9 +1,9 @@
-/* How a shader asks: the options of each service, and what answers hold. Part of reyes/shader_api.h; plain C.
+/* The options of each service, and the structs of answers. Part of reyes/shader_api.h; plain C.
  *
- * A struct that begins with structBytes is made by the function below it, which fills in the defaults; then set what is
- * to differ:  TmRayOptions rays = tmRayDefaults();  rays.samples = 16;
- * Wherever a service takes such a struct, NULL stands for the defaults. A struct whose structBytes is 0 was not made
- * so; it is reported, and the defaults count instead. */
+ * Make a struct that begins with structBytes by the function below it, which sets the defaults, and then set what
+ * differs:  TmRayOptions rays = tmRayDefaults();  rays.samples = 16;
+ * Where a service takes such a struct, NULL stands for the defaults. A struct whose structBytes is 0 was not made by
+ * that function; this is reported, and the defaults are used instead. */
 #pragma once
 #include <string.h>
 
@@ -13,25 +13,26 @@
 extern "C" {
 #endif
 
-/* An array of the batch under a name: a number for each point (y and z NULL) or a triple. */
+/* A named array of the batch: for each point a number (y and z are NULL) or a triple. */
 typedef struct TmChannel {
   const char* name;
   TmVec3 value;
 } TmChannel;
 
-/* Which lights diffuse() counts. */
+/* The lights that diffuse() counts. */
 typedef enum TmLightChoice { TM_ALL_LIGHT = 0, TM_DIRECT_LIGHT = 1, TM_INDIRECT_LIGHT = 2 } TmLightChoice;
 
 typedef enum TmTransformKind { TM_AS_POINT = 0, TM_AS_VECTOR = 1, TM_AS_NORMAL = 2 } TmTransformKind;
 
-/* What report() tells. TM_MISSING: a substitute is rendered, and the exit code says so. */
+/* The severity of report(). With TM_MISSING a substitute is rendered, which shows in the exit code. */
 typedef enum TmSeverity { TM_WARNING = 1, TM_MISSING = 2 } TmSeverity;
 
 typedef enum TmHitSides { TM_HIT_BOTH = 0, TM_HIT_FRONT = 1, TM_HIT_BACK = 2 } TmHitSides;
 /* TM_HIT_DEFAULT leaves the choice to the attributes of the object that the ray meets. */
 typedef enum TmHitMode { TM_HIT_DEFAULT = 0, TM_HIT_PRIMITIVE = 1, TM_HIT_SHADER = 2 } TmHitMode;
 
-/* The thing whose value ask() looks for. Parameters and outputs go by name; "__shadername" is a shader's own name. */
+/* The object that ask() gets a value of. Parameters and outputs are found by name; "__shadername" is a shader's own
+ * name. */
 typedef enum TmWhom {
   TM_OF_SURFACE = 0,
   TM_OF_DISPLACEMENT = 1,
@@ -81,13 +82,13 @@ static inline TmRayOptions tmRayDefaults(void) {
   return o;
 }
 
-/* occlusion(): what counts as covered, and what is wanted. */
+/* What occlusion() counts as covered, and which answers it gives. */
 typedef struct TmOcclusion {
   uint32_t structBytes;
   float falloff;       /* what is met at distance d counts exp(-falloff d), or in mode 1 */
   int32_t falloffMode; /* (1 - d / maxDistance)^falloff; falloff 0: wholly */
-  /* How far an answer for a whole hemisphere, weighted by the cosine, may be off if it is interpolated between records
-   * (docs/gi.md). 0: it is traced at every point; < 0: as Attribute "irradiance" "maxerror" says, if given. */
+  /* The error that interpolation between records (docs/gi.md) may make in an answer for a whole hemisphere, weighted by
+   * the cosine. 0: it is traced at every point; < 0: Attribute "irradiance" "maxerror", if given. */
   float maxVariation;
   float maxSolidAngle;      /* disks that together are seen under less count as one; default 0.01 */
   int32_t clamp;            /* default 1: disks behind others do not count; 0: all do */
@@ -156,15 +157,15 @@ static inline TmShadowOptions tmShadowDefaults(void) {
   return o;
 }
 
-/* RSL's "send:light:NAME": lights that have a parameter of that name take this value for it. The value is laid out like
- * a parameter of the sender, and is a number, a triple or a string. */
+/* RSL's "send:light:NAME": lights that have a parameter of this name use this value for it. The value is a number, a
+ * triple or a string, laid out like a parameter of the sender. */
 typedef struct TmMessage {
   const char* name;
   TmValue value;
   int32_t type; /* TmType */
 } TmMessage;
 
-/* One sample of one light after another: call illuminance() with the same struct until it returns 0. */
+/* Iterates over the samples of lights: call illuminance() with the same struct until it returns 0. */
 typedef struct TmIlluminance {
   uint32_t structBytes;
   int32_t next;         /* kept by the host; 0 at first */
@@ -195,7 +196,7 @@ static inline TmIlluminance tmIlluminanceDefaults(void) {
   return o;
 }
 
-/* How bake3d() and texture3d() see space. */
+/* Spaces and radii of bake3d() and texture3d(). */
 typedef struct TmCloudOptions {
   uint32_t structBytes;
   float radiusScale;       /* default 1 */

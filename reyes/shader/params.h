@@ -10,8 +10,8 @@
 
 namespace rsl {
 
-/// A declared parameter. Make one of the typed ones below at namespace scope and list it in a Shader of the
-/// same file. With a role (TmRole) it also tells the renderer something; its name is free.
+/// A declared parameter. Define one of the typed classes below at namespace scope, and list it in a Shader of the same
+/// file. With a role (TmRole) the renderer uses its value too, whatever its name is.
 class Param {
  public:
   Param(const char* name, int32_t type, std::vector<float> floats, std::vector<const char*> strings, const char* doc,
@@ -40,7 +40,8 @@ class Param {
   }
 };
 
-/// Gives TmShaderLibrary::fault: a parameter that no shader lists would have no value.
+/// Returns TmShaderLibrary::fault: null, or a sentence about a parameter that no shader lists and that would have no
+/// value.
 TM_OF_THIS_PLUGIN inline const char* faultOfParameters() {
   static std::string fault;
   for (const Param* p = Param::newest(); p; p = p->older_)
@@ -59,7 +60,7 @@ class FloatParam : public Param {
   }
 };
 
-/// A number that is the same at all points, as RSL's `uniform`: primitive variables do not override it.
+/// A number that is the same at all points, like RSL's `uniform`: primitive variables do not override it.
 class UniformFloatParam : public Param {
  public:
   UniformFloatParam(const char* name, float value, const char* doc, TmRole role = TM_ROLE_NONE)
@@ -145,7 +146,8 @@ class MatrixParam : public Param {
   const float* operator()(const TmGrid* g) const { return value(g).c[0]; }
 };
 
-/// An output parameter. It is stored, and so worth computing, only where a Display asks for its name.
+/// An output parameter. It is stored only if a Display asks for its name; otherwise wanted() is false, and it need not
+/// be computed.
 template <int32_t type, class T>
 class Output : public Param {
  public:
@@ -164,8 +166,8 @@ using PointOutput = Output<TM_POINT, Vec3>;
 using VectorOutput = Output<TM_VECTOR, Vec3>;
 using NormalOutput = Output<TM_NORMAL, Vec3>;
 
-/// A shader as the renderer sees it. It lists every parameter that it reads; shaders that share a parameter list it at
-/// the same place.
+/// A shader for the renderer. It lists every parameter that it reads. Shaders that share a parameter list it at the
+/// same place.
 class Shader {
  public:
   Shader(TmKind kind, const char* name, const char* doc, uint32_t capabilities, void (*shade)(const TmGrid*),

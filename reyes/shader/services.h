@@ -1,4 +1,4 @@
-/* What a shader may ask of the renderer: light, rays, pictures, spaces, other shaders. Part of reyes/shader_api.h;
+/* The services of the renderer for shaders: light, rays, pictures, spaces, other shaders. Part of reyes/shader_api.h;
  * plain C. Every call works on the whole batch, obeys `active`, and takes TmGrid::host and the batch first. Options may
  * be NULL (reyes/shader/options.h). */
 #pragma once
@@ -53,10 +53,10 @@ typedef struct TmServices {
    *   f(L) Cl / (1 + (m p(L) / d)^2)  over illuminance() at the points themselves, with d of lightDensity(); wholly
    *                                   where d is 0, and
    *   f(L) Cl                         over these directions, with Cl of lightAlong().
-   * A shader may count another number than the m that it draws, in both sums alike, as `disney` does; and d counts a
-   * sample of a sky as less than one (docs/decisions/0191). lightDensity: `light` is TmIlluminance::light; 0 where
-   * lightAlong() would not find the light. lightAlong: L of unit length, sample number 0..m-1, density p(L), 0 for
-   * none. stratified: numbers in [0,1) for sample number `sample`. */
+   * A shader may count another number than the m that it draws, if it does so in both sums, as `disney` does; and d
+   * counts a sample of a sky as less than one (docs/decisions/0191). lightDensity: `light` is TmIlluminance::light; 0
+   * where lightAlong() would not find the light. lightAlong: L of unit length, sample number 0..m-1, density p(L), 0
+   * for none. stratified: numbers in [0,1) for sample number `sample`. */
   int32_t (*lobeSamples)(void* host, const TmGrid*);
   void (*lightDensity)(void* host, const TmGrid*, int32_t light, float* out);
   void (*lightAlong)(void* host, const TmGrid*, TmConstVec3 L, const float* density, int32_t sample, int32_t samples,
@@ -67,7 +67,7 @@ typedef struct TmServices {
    * diffuse rays: Attribute "visibility" and the depth limits of "trace" tell them apart. They start by the hit-list
    * origin offset, unless there is a bias. */
 
-  /* The mean colour that the rays bring, through what is transparent, and the least distance to a hit (1e30: none).
+  /* The mean colour that the rays see, through transparent surfaces, and the least distance to a hit (1e30: none).
    * Either array may be NULL (for the colour: its x). */
   void (*trace)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 direction, TmVec3 color,
                 float* distance);
@@ -89,7 +89,7 @@ typedef struct TmServices {
    * cloud is missing, which has been reported. */
   int32_t (*occlusion)(void* host, const TmGrid*, const TmRayOptions*, TmConstVec3 P, TmConstVec3 N,
                        const TmOcclusion*);
-  /* Says of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth",
+  /* A value of the ray that came to these points: "type" (0 camera, 1 diffuse, 2 specular, 3 transmission), "depth",
    * "diffusedepth", "speculardepth", "shadowdepth", "importance", "length" and "highlights" (0: a gather ray, which
    * wants none) in x alone; "origin" and "direction" in x, y and z. Returns 0 if there is no such name. */
   int32_t (*rayInfo)(void* host, const TmGrid*, const char* name, TmVec3 out);
@@ -135,7 +135,7 @@ typedef struct TmServices {
    * shader. It lives until the shader returns, or as long as the arrays of the illuminance() that listed the light.
    * Returns 0 if there is no such value. `light` counts for TM_OF_LIGHT alone; negative: the light that is running. */
   int32_t (*ask)(void* host, const TmGrid*, int32_t whom, int32_t light, const char* name, int32_t* type, TmValue* out);
-  /* Tells the user once per shader and object; `severity` is a TmSeverity. */
+  /* Reports to the user, once for each shader and object; `severity` is a TmSeverity. */
   void (*report)(void* host, const TmGrid*, int32_t severity, const char* message);
   /* RISpec printf(): prints a line on standard error, which other threads' lines do not break up. It ends with one
    * newline, whether the text has it or not. */

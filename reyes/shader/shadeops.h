@@ -12,8 +12,8 @@ constexpr float kPi = 3.14159265358979f;
 
 inline float radians(float degrees) { return degrees * (kPi / 180); }
 inline float degrees(float radians) { return radians * (180 / kPi); }
-// Where mathematics has no value, these functions give the value that Open Shading Language gives, so that a number
-// just outside of its range does not bring a NaN into the picture.
+// Where a function is undefined, it returns what Open Shading Language returns, so that a number just outside of its
+// domain does not bring a NaN into the picture.
 /// Returns a - b floor(a / b), which has the sign of b, and 0 for b = 0.
 RSL_INLINE float mod(float a, float b) { return b == 0 ? 0 : a - b * wholeBelow(a / b); }
 /// Returns 0 for negative numbers.
@@ -23,11 +23,10 @@ RSL_INLINE float inversesqrt(float x) { return x <= 0 ? 0 : 1 / std::sqrt(x); }
 /// Returns the arcsine of the nearest number in [-1, 1].
 RSL_INLINE float asin(float x) { return std::asin(clamp(x, -1, 1)); }
 RSL_INLINE float acos(float x) { return std::acos(clamp(x, -1, 1)); }
-/// Returns the least float for 0 and negative numbers.
+/// Returns the lowest float for 0 and negative numbers.
 inline float log(float x) { return x <= 0 ? -std::numeric_limits<float>::max() : std::log(x); }
 inline float log(float x, float base) { return log(x) / log(base); }
-/// Returns 0 for a negative number to a power that is not whole, and for 0 to a negative one; else what std::pow
-/// returns.
+/// Returns 0 for a negative number to a power that is not whole, and for 0 to a negative power; otherwise std::pow().
 inline float pow(float x, float y) {
   const bool none =
       (x == 0 && y < 0) || (x < 0 && std::abs(x) <= std::numeric_limits<float>::max() && y != std::floor(y));
@@ -67,8 +66,8 @@ RSL_INLINE Vec3 rotated(Vec3 Q, float cosine, float sine, Vec3 P0, Vec3 P1) {
 inline Vec3 rotate(Vec3 Q, float angle, Vec3 P0, Vec3 P1) {
   return rotated(Q, std::cos(angle), std::sin(angle), P0, P1);
 }
-/// The shares of reflected and of transmitted light, and their directions. I and N are unit vectors. The change of the
-/// solid angle by refraction is not accounted for.
+/// Sets the shares of reflected and transmitted light, and their directions. I and N are unit vectors. Kt ignores that
+/// refraction changes the solid angle.
 inline void fresnel(Vec3 I, Vec3 N, float eta, float& Kr, float& Kt, Vec3& R, Vec3& T) {
   Kr = fresnel(I, N, eta);
   Kt = 1 - Kr;
@@ -93,7 +92,8 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
       out.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] + a.m[i][3] * b.m[3][j];
   return out;
 }
-/// Gauss-Jordan with pivots. Returns the determinant. Where that is 0, `inverse` (may be null) is left alone.
+/// Inverts by Gauss-Jordan elimination with pivoting. Returns the determinant. If that is 0, `inverse` (may be null) is
+/// left alone.
 inline float invert(const Matrix& a, Matrix* inverse) {
   Matrix left = a, right;
   float determinant = 1;
@@ -125,7 +125,7 @@ inline float invert(const Matrix& a, Matrix* inverse) {
   return determinant;
 }
 inline float determinant(const Matrix& a) { return invert(a, nullptr); }
-/// The new transformation comes before those of `a`, as in RIB.
+/// These apply the new transformation before those of `a`, as in RIB.
 inline Matrix translate(const Matrix& a, Vec3 t) {
   Matrix b;
   b.m[3][0] = t.x;
@@ -194,7 +194,7 @@ inline Color rgbFromHsl(Color c) {
   const float chroma = (1 - std::abs(2 * c.z - 1)) * c.y, low = c.z - chroma / 2;
   return chroma * rgbFromHue(c.x) + Color{low, low, low};
 }
-/// Takes rgb with the Rec. 709 primaries and the white point D65.
+/// Converts rgb with the primaries of Rec. 709 and the white point D65.
 inline Color xyzFromRgb(Color c) {
   return {dot(c, {0.4123908f, 0.3575843f, 0.1804808f}), dot(c, {0.2126390f, 0.7151687f, 0.0721923f}),
           dot(c, {0.0193308f, 0.1191948f, 0.9505322f})};
@@ -210,7 +210,7 @@ inline Color xyYFromXyz(Color c) {
 inline Color xyzFromXyY(Color c) {
   return c.y != 0 ? Color{c.x * c.z / c.y, c.z, (1 - c.x - c.y) * c.z / c.y} : Color{};
 }
-/// NTSC's YIQ.
+/// Converts to NTSC's YIQ.
 inline Color yiqFromRgb(Color c) {
   return {dot(c, {0.299f, 0.587f, 0.114f}), dot(c, {0.595716f, -0.274453f, -0.321263f}),
           dot(c, {0.211456f, -0.522591f, 0.311135f})};

@@ -1,10 +1,10 @@
-// Point clouds, brick maps and photons, on values of a batch, as PRMan has them. Part of reyes/sl.h.
+// PRMan's functions of point clouds, brick maps and photons, on values of a batch. Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_services.h"
 
 namespace sl {
 
-/// A number or a triple of the batch under the name of a channel.
+/// A number or a triple of the batch, with the name of a channel.
 struct Channel {
   Channel(const char* name, const Float& x) : value{name, {x.data(), nullptr, nullptr}} {}
   Channel(const char* name, const Triple& v) : value{name, v.out()} {}
@@ -61,8 +61,8 @@ inline Color caustic(const Point& p, const Normal& n) {
   const std::string file = askText(TM_OF_ATTRIBUTES, "photon:causticmap");
   return file.empty() ? Color() : photonmap(file.c_str(), p, n);
 }
-/// Returns the light that was baked as "_radiance_t" with "_area", where it leaves after diffusion, as E/pi. The list
-/// names the material, marble by default. The approximation does not look at the normal.
+/// Returns the light that leaves at p after diffusion, as E/pi, from a cloud with "_radiance_t" and "_area". The list
+/// names the material, marble by default. The approximation ignores the normal.
 template <class... List>
 Color subsurface(const Point& p, const Normal&, const char* file, const List&... list) {
   const TmSubsurfaceOptions material = listed(tmSubsurfaceDefaults(), list...);

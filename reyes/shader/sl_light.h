@@ -1,4 +1,4 @@
-// Light (RISpec 15.6), and the rays that PRMan added, on values of a batch. Part of reyes/sl.h.
+// Functions of light (RISpec 15.6) and PRMan's functions of rays, on values of a batch. Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_services.h"
 
@@ -28,8 +28,8 @@ inline Color phong(const Normal& n, const Vector& v, const Float& size) {
   }
   return sum;
 }
-/// Returns the number that specular() divides by the roughness to get its exponent, as Option "shade" "specular" says
-/// (docs/decisions/0004).
+/// Returns the number that specular() divides by the roughness to get its exponent. Option "shade" "specular" decides
+/// it (docs/decisions/0004).
 inline float specularScale() {
   float& scale = Run::now().specularScale;
   if (scale == 0) scale = askText(TM_OF_OPTIONS, "shade:specular") == "rispec" ? 1 : 8;
@@ -39,7 +39,7 @@ inline float specularScale() {
 inline Float specularbrdf(const Vector& L, const Normal& N, const Vector& V, const Float& roughness) {
   return pow(max(0, dot(normalize(N), normalize(normalize(L) + normalize(V)))), specularScale() / roughness);
 }
-/// Returns a random number that all points of a call share if their surfaces have one name (Attribute "identifier"
+/// Returns a random number, the same at all points of a call and on all surfaces of one name (Attribute "identifier"
 /// "name").
 inline Float randomGrid() {
   uint32_t hash = 0;
@@ -101,23 +101,25 @@ Color indirect(const Point& p, const Normal& n, int samples, const List&... list
   return indirectdiffuse(p, n, samples, list...);
 }
 
-/// One value of each hit, by its gather() name.
+/// A value that gather() gets of each hit, by its name.
 struct Gathered {
   Gathered(const char* name, Triple* t) : output{name, t->out()} {}
   Gathered(const char* name, Float* f) : output{name, {f->data(), nullptr, nullptr}} {}
   TmChannel output;
 };
-/// Makes the list of gather(). Rays are even over the cone's solid angle unless "distribution" is "cosine".
+/// Makes the options of gather() from a list. Rays are uniform over the cone's solid angle unless "distribution" is
+/// "cosine".
 template <class... List>
 TmRayOptions rays(const List&... list) {
   TmRayOptions even = tmRayDefaults();
   even.uniform = 1;
   return listed(even, list...);
 }
-/// RSL's gather(). category "illuminance" (or "") traces rays; "samplepattern" only makes directions, which all count
-/// as misses. "environment:NAME" traces none either. All rays are misses then, and their directions follow the light of
-/// that picture, whatever direction and angle are given. They have "environment:color", "environment:direction" and
-/// "environment:solidangle"; the sum of color times solid angle over all rays is the light of the whole picture.
+/// Implements RSL's gather(). The category "illuminance" (or "") traces rays; "samplepattern" only makes directions,
+/// which all count as misses. "environment:NAME" traces no rays either. All count as misses then, and their directions
+/// follow the light of that picture, whatever direction and angle are given. They have "environment:color",
+/// "environment:direction" and "environment:solidangle"; the sum of color times solid angle over all rays is the light
+/// of the whole picture.
 template <class Hit, class Miss>
 void gather(const char* category, const Point& p, const Vector& direction, float angle, int samples,
             const TmRayOptions& list, std::initializer_list<Gathered> wanted, const Hit& hit, const Miss& miss) {

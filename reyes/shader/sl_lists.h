@@ -27,7 +27,7 @@ struct Setting : rsl::Setting {
 using rsl::HemisphereList;
 using rsl::PhotonList;
 struct CloudList : rsl::CloudList {
-  Float same;  ///< The radius that all points share, as an array.
+  Float same;  ///< The common radius of all points, as an array.
   TmCloudOptions options() const {
     TmCloudOptions o = cloud;
     if (hasRadius) o.radius = same.data();
@@ -43,7 +43,7 @@ struct LightList : rsl::LightList {
   LightList() { padded = grid()->padded; }
 };
 
-/// Returns the options, changed as the list says.
+/// Returns the options, changed by the list.
 template <class Options>
 Options listed(Options options) {
   return options;

@@ -1,8 +1,8 @@
-// Patterns that know how much of them a shading sample covers: the C++ twins of shaders/include/filterwidth.h, noises.h
-// and patterns.h, with their names and arguments (A. Apodaca and L. Gritz, "Advanced RenderMan", 1999). A test holds
-// each to them. Shaders of reyes/sl.h include this beside it. Widths are in units of what is filtered, and those of 0
-// are taken as kLeastWidth. filterwidth() asks for derivatives: a surface needs TM_DERIVATIVES for those of s, t, u, v
-// and P, and TM_NEIGHBOURS for others. Threads: as reyes/sl.h.
+// Patterns that are filtered over a shading sample: the C++ twins of shaders/include/filterwidth.h, noises.h and
+// patterns.h, with their names and arguments (A. Apodaca and L. Gritz, "Advanced RenderMan", 1999). A test compares
+// them. Shaders of reyes/sl.h include this beside it. Widths are in units of the filtered value, and are at least
+// kLeastWidth. filterwidth() asks for derivatives: a surface needs TM_DERIVATIVES for those of s, t, u, v and P, and
+// TM_NEIGHBOURS for others. Threads: as reyes/sl.h.
 #pragma once
 #include "reyes/sl.h"
 
@@ -10,14 +10,14 @@ namespace sl {
 
 constexpr float kLeastWidth = 1e-6f;
 
-/// Returns how far a value changes over a micropolygon.
+/// Returns the change of a value over a micropolygon.
 inline Float filterwidth(const Float& x) {
   return max(kLeastWidth, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
 /// Returns the side of a square as large as the micropolygon that the points span.
 inline Float filterwidthp(const Point& p) { return max(kLeastWidth, sqrt(area(p))); }
 
-/// Returns the part of a sample from x - dx/2 to x + dx/2 that lies between the two edges.
+/// Returns the share of the interval from x - dx/2 to x + dx/2 that lies between the two edges.
 inline Float filteredpulse(const Float& edge0, const Float& edge1, const Float& x, const Float& dx) {
   const Float width = max(dx, kLeastWidth), from = x - width / 2;
   return max(0, (min(from + width, edge1) - max(from, edge0)) / width);
@@ -27,7 +27,7 @@ inline Float pulsetrainintegral(const Float& edge, const Float& period, const Fl
   const Float periods = floor(x / period);
   return periods * edge + min(edge, x - periods * period);
 }
-/// Returns the part of a sample that lies within such pulses.
+/// Returns the share of the interval from x - dx/2 to x + dx/2 that lies within such pulses.
 inline Float filteredpulsetrain(const Float& edge, const Float& period, const Float& x, const Float& dx) {
   const Float width = max(dx, kLeastWidth);
   return (pulsetrainintegral(edge, period, x + width / 2) - pulsetrainintegral(edge, period, x - width / 2)) / width;
@@ -49,7 +49,7 @@ Float octaves(const Point& p, const Float& width, int most, float lacunarity, fl
     sum = sum + strength * each(filteredsnoise(p * frequency, width * frequency));
   return sum;
 }
-/// Fractal sum of octaves with both signs.
+/// Returns a fractal sum of octaves, with both signs.
 inline Float fBm(const Point& p, const Float& width, int most = 4, float lacunarity = 2, float gain = 0.5f) {
   return octaves(p, width, most, lacunarity, gain, [](const Float& x) { return x; });
 }

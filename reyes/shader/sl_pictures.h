@@ -28,8 +28,8 @@ Float ftexture(const char* name, int channel, const Float& s, const Float& t, co
   grid()->call->texture(grid()->host, grid(), name, &one, s.data(), t.data(), {out.data(), nullptr, nullptr});
   return out;
 }
-/// RSL's texture(name, s1, t1, ... s4, t4): averages over the quadrilateral with these corners. They have the order of
-/// a bilinear patch's corners, so that s1 and s4 lie opposite each other.
+/// Implements RSL's texture(name, s1, t1, ... s4, t4): averages over the quadrilateral with these corners. They are in
+/// the order of a bilinear patch, so s1 and s4 are opposite each other.
 inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4],
                       TmTextureOptions options = tmTextureDefaults()) {
   const auto middle = [](const Float(&x)[4]) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); };
@@ -39,7 +39,7 @@ inline Triple texture(const char* name, const Float (&s)[4], const Float (&t)[4]
   for (int k = 0; k < 4; ++k) options.region[k] = sides[k].data();
   return texture(name, s0, t0, options);
 }
-/// The region that texture() averages in place of the micropolygon: RSL's filterregion.
+/// RSL's filterregion: the region over which texture() averages instead of the micropolygon.
 struct FilterRegion {
   Float s, t, sides[4];
   /// Sets it to the region of a micropolygon whose points were at s, t.
@@ -96,7 +96,7 @@ Triple shadow(const char* name, const Triple& p, const char* first, const List&.
   return shadow(name, p, listed(tmShadowDefaults(), first, list...));
 }
 
-/// Shadow over the quadrilateral whose corners are four points, in the order of texture(): the mean of its quarters.
+/// Returns the shadow over a quadrilateral, as the mean of its quarters. Its four corners have the order of texture().
 template <class... List>
 Triple shadow(const char* name, const Point (&p)[4], const List&... list) {
   const auto at = [&](double a, double b) {

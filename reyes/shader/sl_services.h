@@ -1,5 +1,5 @@
-// Questions that shaders ask of the renderer, on values of a batch: spaces, derivatives, random numbers, the ray that
-// came, messages (RISpec 15.1, 15.2, 15.8). Part of reyes/sl.h.
+// Queries to the renderer, on values of a batch: spaces, derivatives, random numbers, the incoming ray, messages
+// (RISpec 15.1, 15.2, 15.8). Part of reyes/sl.h.
 #pragma once
 #include "reyes/shader/sl_lists.h"
 #include "reyes/shader/sl_shadeops.h"
@@ -31,11 +31,11 @@ inline Triple Du(const Triple& p) { return {Du(xcomp(p)), Du(ycomp(p)), Du(zcomp
 inline Triple Dv(const Triple& p) { return {Dv(xcomp(p)), Dv(ycomp(p)), Dv(zcomp(p))}; }
 inline Float Deriv(const Float& a, const Float& b) { return Du(a) / Du(b) + Dv(a) / Dv(b); }
 inline Triple Deriv(const Triple& a, const Float& b) { return Du(a) / Du(b) + Dv(a) / Dv(b); }
-/// step() averaged over how x changes across the micropolygon.
+/// Returns step() averaged over the change of x across the micropolygon.
 inline Float filterstep(const Float& edge, const Float& x) {
   return filterstep(edge, x, abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv)));
 }
-/// Returns a number in [0, 1), another one at every call. It is a hash of 48 bits that name the point (those of its
+/// Returns a number in [0, 1), a different one at every call. It is a hash of 48 bits that identify the point (its
 /// first stratified sample) and of the number of the call. Directions for lobes come from another hash.
 inline Float randomNumber() {
   const int call = Run::now().randoms++;
@@ -46,12 +46,12 @@ inline Float randomNumber() {
   });
   return x;
 }
-/// Gives three random numbers.
+/// Returns three random numbers.
 inline Triple random3() {
   const Float x = randomNumber(), y = randomNumber();
   return {x, y, randomNumber()};
 }
-/// filterstep() over `width` times how x changes across the micropolygon.
+/// Returns filterstep() over `width` times the change of x across the micropolygon.
 inline Float filterstep(const Float& edge, const Float& x, const char*, double width) {
   return filterstep(edge, x, width * (abs(Du(x) * Float(grid()->du)) + abs(Dv(x) * Float(grid()->dv))));
 }
@@ -107,7 +107,7 @@ inline bool askFor(TmWhom whom, int light, const char* name, int first, int last
   int32_t type;
   return grid()->call->ask(grid()->host, grid(), whom, light, name, &type, &out) && type >= first && type <= last;
 }
-/// Gets a value of another shader, of the attributes or of another TmWhom. Returns false, and leaves `out` alone, where
+/// Gets a value of another shader, of the attributes or of another TmWhom. Returns false, and leaves `out` alone, if
 /// there is none of that name and type.
 inline bool ask(TmWhom whom, const char* name, TmVec3 out, int light = -1) {
   TmValue v;
@@ -146,7 +146,7 @@ template <class T>
 bool lightsource(int light, const char* name, T&& out) {
   return ask(TM_OF_LIGHT, name, out, light);
 }
-// These return what print() prints of a value at one point.
+// These return the value at one point, for print().
 inline float at(const Float& x, int i) { return x[i]; }
 inline rsl::Vec3 at(const Triple& v, int i) { return v[i]; }
 inline rsl::Matrix at(const Matrix& m, int i) { return m[i]; }

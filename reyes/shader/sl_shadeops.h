@@ -95,11 +95,11 @@ inline Triple mix(const Triple& a, const Triple& b, const Triple& t) {
 inline Float smoothstep(const Float& lo, const Float& hi, const Float& x) {
   return Float::of([&](int i) { return rsl::smoothstep(lo[i], hi[i], x[i]); });
 }
-/// step() averaged over `width` around x.
+/// Returns step() averaged over `width` around x.
 inline Float filterstep(const Float& edge, const Float& x, const Float& width) {
   return Float::of([&](int i) { return rsl::filterstep(edge[i], x[i], width[i]); });
 }
-/// RSL's filterstep(edge, s1, s2): step() averaged from s1 to s2.
+/// Implements RSL's filterstep(edge, s1, s2): step() averaged from s1 to s2.
 inline Float filterstepBetween(const Float& edge, const Float& a, const Float& b) {
   return filterstep(edge, 0.5 * (a + b), abs(b - a));
 }
@@ -138,7 +138,7 @@ inline Triple spline(const Float& x, std::initializer_list<rsl::Color> knots) {
 
 // --- Noise
 
-/// Runs over all points at once, so that the compiler vectorises it. `p` and `out` must not overlap.
+/// Loops over all points in one function, so that the compiler vectorises it. `p` and `out` must not overlap.
 RSL_HOT inline void noiseOver(int n, TmConstVec3 p, float* __restrict out) {
   for (int i = 0; i < n; ++i) out[i] = 0.5f + 0.5f * rsl::signedNoise(rsl::Vec3{p.x[i], p.y[i], p.z[i]});
 }
@@ -281,7 +281,7 @@ inline Matrix operator*(const Matrix& a, const Matrix& b) {
 inline Float determinant(const Matrix& a) {
   return Float::of([&](int i) { return rsl::determinant(a[i]); });
 }
-/// Gives the identity where there is no inverse.
+/// Returns the identity where there is no inverse.
 inline Matrix inverse(const Matrix& a) {
   return Matrix::of([&](int i) {
     rsl::Matrix out;

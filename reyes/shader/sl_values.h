@@ -7,8 +7,8 @@
 
 namespace sl {
 
-/// One run of a shader: its batch, whose `active` is the mask of the open conditionals. A thread keeps a stack of runs,
-/// since shaders that trace rays run others.
+/// One run of a shader: its batch, whose `active` is the mask of the enclosing conditionals. A thread keeps a stack of
+/// runs, because shaders that trace rays run others.
 class Run {
  public:
   explicit Run(const TmGrid* g) : grid(*g), outer_(std::exchange(current(), this)) {}
@@ -29,7 +29,7 @@ class Run {
 };
 inline const TmGrid* grid() { return &Run::now().grid; }
 
-/// Memory of values. The thread keeps it for the values that come next.
+/// Memory of values. The thread keeps freed memory for later values.
 class Lanes {
  public:
   Lanes() : size_(grid()->padded) {
@@ -66,7 +66,7 @@ class Lanes {
   int size_, capacity_ = 0;
 };
 
-/// Applies an operation to all points, the masked ones too: nothing depends on what those hold.
+/// Applies an operation to all points, inactive ones too, since nothing depends on their values.
 template <class Op>
 void fill(float* out, const Op& op) {
   for (int i = 0, n = grid()->padded; i < n; ++i) out[i] = op(i);
@@ -98,7 +98,7 @@ struct Mask {
   }
 };
 
-/// Runs `body` for the points that are active and in the mask, or not at all where there are none.
+/// Runs `body` for active points whose mask equals `wanted`, or not at all if there are none.
 template <class Body>
 void where(const uint8_t* mask, bool wanted, const Body& body) {
   TmGrid& g = Run::now().grid;
@@ -120,8 +120,8 @@ void If(const Mask& condition, const Then& then, const Else& otherwise) {
   where(condition.on.data(), false, otherwise);
 }
 
-/// RSL's while: runs `body` again and again for the points for which `condition`, a function that returns a Mask, has
-/// held every time.
+/// RSL's while: runs `body` repeatedly, each time for the points at which `condition`, a function that returns a Mask,
+/// still holds.
 template <class Condition, class Body>
 void While(const Condition& condition, const Body& body) {
   TmGrid& g = Run::now().grid;
@@ -279,7 +279,8 @@ inline bool operator!=(const rsl::StringParam& a, std::string_view b) { return u
 
 // --- Output parameters
 
-/// RSL's assignment to an output parameter. Does nothing where no Display wants it. Colours are premultiplied, as Ci.
+/// Assigns to an output parameter, as in RSL. It does nothing if no Display wants the output. Colours are
+/// premultiplied, like Ci.
 inline void output(const rsl::FloatOutput& o, const Float& v) {
   if (o.wanted(grid())) forActive([&](int i) { o.set(grid(), i, v[i]); });
 }

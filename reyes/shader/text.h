@@ -39,8 +39,8 @@ std::string concat(const Parts&... parts) {
 }
 
 /// %f stands for a float, %d for a number without its fraction, %c for a colour, %p for a point, vector or normal, %m
-/// for a matrix, %s for a string. A value is written by its own type, whatever letter asks. %% is a percent sign. A
-/// letter that no value is left for stays as it is. `values` are texts already.
+/// for a matrix, %s for a string. A value is written by its own type, even if the letter differs. %% is a percent sign.
+/// A letter for which no value is left stays as it is. `values` are already converted to texts.
 inline std::string formatTexts(const std::string& pattern, const std::vector<std::string>& values) {
   std::string out;
   size_t next = 0;
@@ -76,9 +76,9 @@ inline double repetitions(const std::string& pattern, size_t at) {
 }
 }  // namespace text_detail
 
-/// Tells whether an extended regular expression is so long, or repeats so much within what is repeated
-/// ("((a{255}){255}){255}"), that to prepare it might take more memory than there is. The characters are counted with
-/// their repetitions. The count is never too low: what repeats more than one character counts for all that is before.
+/// Tells whether an extended regular expression is so long, or has such nested repetitions ("((a{255}){255}){255}"),
+/// that compiling it might exhaust memory. Characters are counted with their repetitions. The count is never too low: a
+/// repetition of more than one character multiplies everything before it.
 inline bool isHugePattern(const std::string& pattern) {
   constexpr size_t kLongest = 4096;
   constexpr double kMostCharacters = 1 << 16;
@@ -93,7 +93,8 @@ inline bool isHugePattern(const std::string& pattern) {
   return characters > kMostCharacters;
 }
 
-/// Tells whether an extended regular expression fits any part of the text. One that is malformed or huge fits nothing.
+/// Tells whether an extended regular expression matches any part of the text. A malformed or huge expression matches
+/// nothing.
 inline bool match(const std::string& pattern, const std::string& text) {
   regex_t expression;
   if (isHugePattern(pattern) || regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;

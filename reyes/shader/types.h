@@ -1,4 +1,4 @@
-/* What a batch of points is to a shader: arrays, declared parameters and their values. Part of reyes/shader_api.h;
+/* A batch of points as a shader gets it: arrays, declared parameters and their values. Part of reyes/shader_api.h;
  * plain C. */
 #pragma once
 #include <stdint.h>
@@ -20,17 +20,17 @@ typedef struct TmConstVec3 {
 typedef enum TmKind { TM_SURFACE = 0, TM_DISPLACEMENT = 1, TM_LIGHT = 2, TM_VOLUME = 3, TM_IMAGER = 4 } TmKind;
 typedef enum TmType { TM_FLOAT = 0, TM_COLOR, TM_POINT, TM_VECTOR, TM_NORMAL, TM_STRING, TM_MATRIX } TmType;
 
-/* Added to the type of a TmParamDecl: an output parameter, of float, color, point, vector or normal. Where a Display
- * wants the variable of this name, TmValue::step is 1 and c[k] may be written for active points (cast const away; a
- * colour premultiplied by opacity, as Ci is); elsewhere step is 0 and nothing may be written. */
+/* Added to the type of a TmParamDecl: an output parameter, of float, color, point, vector or normal. If a Display wants
+ * the variable of this name, TmValue::step is 1 and c[k] may be written for active points (cast const away; a colour is
+ * premultiplied by opacity, like Ci); otherwise step is 0 and nothing may be written. */
 #define TM_OUTPUT 0x100
-/* Likewise: a parameter that primitive variables of the same name do not override (the user is told), so TmValue::step
- * is 0. For what a whole batch must agree on: numbers of rays, names of sets. */
+/* Added in the same way: primitive variables of the same name do not override the parameter (which is reported), so
+ * TmValue::step is 0. It is for values that a whole batch must share: numbers of rays, names of sets. */
 #define TM_UNIFORM 0x200
 #define TM_TYPE_OF(declared) ((declared)&0xff) /* the TmType alone */
 
-/* What a shader declares about itself, so that the core shades no more than needed. `tomales shadetest --check` holds
- * what it can against what the shader does. */
+/* What a shader declares about itself, so that the core shades no more than needed. `tomales shadetest --check`
+ * compares this, as far as it can, with what the shader does. */
 typedef enum TmCapability {
   /* --- Surfaces */
   TM_KEEPS_OPACITY = 1 << 0, /* Oi = Os always, so an object with Os = 1 hides what is behind it */
@@ -76,9 +76,9 @@ typedef enum TmCapability {
                                        the shader asks for radiance, or names a TmOcclusion::maxVariation */
 } TmCapability;
 
-/* What the host understands of a parameter, whatever its name: how a shader says which of its parameters is the number
- * of its samples, and so on. A parameter without a role is the shader's own affair. Each role has one type and one kind
- * of shader (reyes/shade/roles.cpp); docs/shader_writing.md explains them. */
+/* The meaning of a parameter to the host, whatever its name is: which one is the number of samples, and so on. The host
+ * ignores the value of a parameter without a role. Each role has one type and one kind of shader
+ * (reyes/shade/roles.cpp); docs/shader_writing.md explains them. */
 typedef enum TmRole {
   TM_ROLE_NONE = 0,
   /* float. TM_LIGHT_AREA, TM_LIGHT_SKY, TM_LIGHT_SAMPLED: samples for each shaded point. TM_LIGHT_INDIRECT: rays of

@@ -1,6 +1,6 @@
-// RSL's wnoise: wavelet noise (R. Cook, T. DeRose 2005, "Wavelet Noise"), a single band of frequencies, so that what is
-// finer than a pixel can be left out without taking away what is not. The same bits on every machine: integer hashes
-// and IEEE arithmetic alone. A table of 1 MB is made at the first use.
+// RSL's wnoise: wavelet noise (R. Cook, T. DeRose 2005, "Wavelet Noise"). It has a single band of frequencies, so bands
+// finer than a pixel can be left out without loss of coarser detail. Results have the same bits on every machine,
+// because they use only integer hashes and IEEE arithmetic. A table of 1 MB is made at the first use.
 #pragma once
 #include <vector>
 
@@ -15,7 +15,8 @@ class WaveletTile {
     return tile;
   }
 
-  /// Noise of mean 0 and deviation 1, of half a wave to one wave for each unit. It repeats after kSize units.
+  /// Returns noise of mean 0 and standard deviation 1, with half a wave to one wave per unit. It repeats after kSize
+  /// units.
   float operator()(Vec3 p) const {
     const float x[3] = {p.x, p.y, p.z};
     int middle[3];
@@ -45,7 +46,7 @@ class WaveletTile {
     return (wrapped(z) * kSize + wrapped(y)) * kSize + wrapped(x);
   }
 
-  /// Random numbers less the part that a grid of half the resolution can hold (section 3.5).
+  /// Fills the tile with random numbers minus the part that half the resolution can represent (section 3.5).
   WaveletTile() : coefficients_(size_t{kSize} * kSize * kSize) {
     std::vector<float> coarse(coefficients_.size());
     for (int z = 0; z < kSize; ++z)
@@ -74,7 +75,7 @@ class WaveletTile {
     return sum;
   }
 
-  /// Replaces one row by what is left of it when it is taken down to half the resolution and up again.
+  /// Replaces one row by its part that half the resolution can represent: it is downsampled and upsampled again.
   static void leaveCoarse(std::vector<float>& values, int axis, int a, int b) {
     // The analysis filter that belongs to quadratic B-splines (appendix 1).
     static const float down[32] = {0.000334f, -0.001528f, 0.000410f,  0.003545f, -0.000938f, -0.008233f, 0.002172f,
@@ -100,8 +101,8 @@ class WaveletTile {
   std::vector<float> coefficients_;
 };
 
-/// Noise in [0, 1] of mean 1/2 and deviation 1/6. Where it is finer than `width`, the distance to the next point, it
-/// fades to its mean.
+/// Returns noise in [0, 1] with mean 1/2 and standard deviation 1/6. Where it is finer than `width`, the distance to
+/// the next point, it fades to its mean.
 inline float wnoise(Vec3 p, float width = 0) {
   const float seen = 1 - smoothstep(0.5f, 1, width);  // the band ends at one wave a unit
   return clamp(0.5f + seen / 6 * (seen > 0 ? WaveletTile::get()(p) : 0), 0, 1);

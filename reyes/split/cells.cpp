@@ -12,20 +12,21 @@ constexpr float kFlat_px = 0.25f;
 /// Greatest turn of a blurred cell in radians. A blurred chord may leave its arc by more, but must not cover less: with
 /// this limit circles keep 0.97 of their area. It does not apply where a sharp cell would turn by more.
 constexpr float kTurn = 0.4f;
-/// Lines that bend round have an even number of cells up to this: their middle, where a ball is widest, is then a line
+/// Closed lines have an even number of cells up to this limit, so that their middle, where a ball is widest, is a line
 /// of the grid.
 constexpr int kFewOfRound = 10;
 constexpr float kMostCells = 65536;
 
 /// Greatest length of an edge over that of a square of the required area.
 constexpr float kLongest = 1.5f;
-/// The whole numbers may be smaller than the exact numbers of cells by this factor.
+/// Rounding may reduce the number of cells by this factor.
 constexpr float kFewer = 0.9f;
-/// A ratio closer to 1 is better by rounding alone: the direction in which a square piece is cut must not depend on its
-/// position.
+/// A ratio must be closer to 1 by more than this to count as better, so that rounding does not decide how a square
+/// piece is cut.
 constexpr float kSquarer = 0.9999f;
 
-/// Whole numbers for two lines with these exact numbers of cells: as few as cover the area, and the squarest of these.
+/// Returns whole numbers of cells for two lines with these exact numbers: the fewest that cover the area, and the
+/// squarest of these.
 Cells fewest(float alongU, float alongV, int leastU, int leastV) {
   Cells best{0, 0};
   float bestEdge = kInfinity;
@@ -55,7 +56,7 @@ int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
   // The hider knows how far a line bulges if it has two chords or more, and closes cracks by that
   // (docs/decisions/0003).
   constexpr float kOneChord_px = 0.05f;
-  // For a line whose quarters leave it by `bend_px` as a second difference, an n-th part bulges by 2 bend / n^2.
+  // If the second difference of a line's quarters is bend_px, its n-th part bulges by 2 bend_px / n^2.
   const auto within = [&](float px) { return std::min(std::ceil(std::sqrt(2 * line.bend_px / px)), 64.0f); };
   const float fine = std::ceil(line.px / (kLongest * edge_px)),
               coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));

@@ -5,7 +5,7 @@
 namespace tomales {
 namespace {
 
-constexpr float kDeepest = 2;  ///< A coarse piece's far end is at most so many times as far away as its near end.
+constexpr float kDeepest = 2;  ///< A coarse piece's far end is at most this many times as far away as its near end.
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // Private to splitting: what the camera can see of an object's pieces. Bounds are in camera space, over the shutter;
-// `bare` ones are without displacement. Pure.
+// `bare` bounds are without displacement. Pure.
 #pragma once
 #include "reyes/split.h"
 
@@ -7,7 +7,7 @@ namespace tomales {
 
 class ObjectView {
  public:
-  /// `window`: the raster pixels that have samples. All must outlive this.
+  /// `window`: the raster pixels that have samples. All arguments must outlive this object.
   ObjectView(const Object& object, const Camera& camera, const PixelRect& window)
       : object_(object), camera_(camera), window_(window) {}
 
@@ -15,8 +15,8 @@ class ObjectView {
   /// Tells whether the undisplaced bound crosses the eye plane. A displacement bound does not shrink with halving, so
   /// it does not count.
   bool crossesEye(const Bound3& bare) const { return camera_.perspective() && bare.lo.z < camera_.eyePlane(); }
-  /// Tells whether all of the bound is seen at about the same scale. If not, the cost of its near end says nothing
-  /// about most of it.
+  /// Tells whether all of the bound is seen at about the same scale. If not, the cost of its near end says little about
+  /// the rest.
   bool isOfOneScale(const Bound3& bare) const;
   /// Returns the raster bound of the part beyond the near plane.
   Bound2 rasterOf(Bound3 bound, float reach_px) const;
@@ -24,7 +24,7 @@ class ObjectView {
   /// may be as wide as a quarter of the circle of confusion, and its area may be a quarter of the length of its path,
   /// both times the factors of GeometricApproximation.
   float coarsening(uint32_t patch, const UvRect& rect, const Bound3& bound) const;
-  /// Tells whether the patch is a whole disk that one cell without corners or neighbours represents.
+  /// Tells whether the patch is a whole disk that can be one round cell, without corners or neighbours.
   bool canBeRound(uint32_t patch) const {
     return standsStillInFocus(object_, camera_) && object_.shape().info(patch).disk;
   }

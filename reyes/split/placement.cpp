@@ -5,7 +5,8 @@ namespace {
 
 constexpr float kRounding_px = 0.01f;  ///< Rounding of the projection of a box or its points.
 
-/// Does the same as transformBound(), to the bit, by extremes of products, not eight corners: rounding is monotonic.
+/// Gives the same bits as transformBound(), from extremes of products instead of eight corners, because rounding is
+/// monotonic.
 Bound3 boundThrough(const mat4& m, const Bound3& b) {
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) return transformBound(m, b);
   const vec3 x0 = vec3(m[0]) * b.lo.x, x1 = vec3(m[0]) * b.hi.x, y0 = vec3(m[1]) * b.lo.y, y1 = vec3(m[1]) * b.hi.y;

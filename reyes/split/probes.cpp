@@ -12,11 +12,11 @@ inline float bend(float x0, float y0, float x1, float y1, float x2, float y2) {
               second = std::sqrt(secondX * secondX + secondY * secondY);
   const float across = std::abs(alongX * secondY - alongY * secondX) / length;
   const float finite = across < kInfinity ? across : 0.0f;
-  return length > 1e-3f * second ? finite : second;  // else the line goes there and back
+  return length > 1e-3f * second ? finite : second;  // otherwise the line turns back on itself
 }
 
-/// Returns the least number of chords of a line, however short, that enclose an area: it bends round (a meridian), or
-/// closes on itself (a parallel).
+/// Returns the least number of chords with which a line encloses an area, however short it is: it may bend round (a
+/// meridian) or close on itself (a parallel).
 inline int leastCells(float length, float endToEnd) {
   return endToEnd < 0.3f * length ? 6 : endToEnd < 0.8f * length ? 4 : 1;
 }
@@ -60,7 +60,7 @@ template <class L>
   }
 }
 
-/// Twice the area in pixels of the triangle at `a` whose sides go to `b` and `c`; `out` keeps the larger value.
+/// Computes twice the area in pixels of the triangle at `a` with sides to `b` and `c`; `out` keeps the larger value.
 template <class L>
 [[gnu::always_inline]] inline void measureCorner(const L& __restrict at, int a, int b, int c, const Camera& camera,
                                                  bool asSeen, float* __restrict out) {
@@ -81,7 +81,7 @@ template <class L>
   for (int i = 0; i < n; ++i) out[i] = out[i] < area[i] ? area[i] : out[i];
 }
 
-/// The area if all parts were as large as the largest between two lines of probes each.
+/// Computes the area as if all parts between lines of probes were as large as the largest.
 template <class L>
 [[gnu::always_inline]] inline void measureArea(const L& __restrict at, const Camera& camera, bool asSeen,
                                                float* __restrict out) {

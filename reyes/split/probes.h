@@ -1,5 +1,5 @@
 // Private to splitting: measures patches by a lattice of points on each, the probes. Lines of the lattice are measured
-// chord by chord, at a vector of patches together: most scenes with many patches have small ones.
+// chord by chord, for a vector of patches at once, because scenes with many patches have small ones.
 #pragma once
 #include "reyes/base/simd.h"
 #include "reyes/scene.h"
@@ -28,8 +28,8 @@ struct ProbeSizes {
   alignas(64) Values lo[3], hi[3];
 };
 
-/// Takes the probes from object space to camera space and to raster space, and measures the lines through them.
-/// `asSeen`: lengths and areas count as the camera sees them, else as if they faced it.
+/// Transforms the probes from object space to camera space and raster space, and measures the lines through them.
+/// `asSeen`: lengths and areas are measured as projected; if false, as if they faced the camera.
 void measureLattice(ProbeLattice<1, kLanes>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,
                     ProbeSizes<kLanes>& out);
 void measureLattice(ProbeLattice<4, kLanes>& at, const mat4& cameraFromObject, const Camera& camera, bool asSeen,

@@ -10,8 +10,8 @@ constexpr size_t kMostKeys = 5;
 
 // The lines of a flat patch are straight, and the longest is one of its edges.
 constexpr int kFlatProbes = 1, kCurvedProbes = 4;
-/// Length of a triangle along u over that of its foot: the root of the mean square over its area, since its edge v = 1
-/// has no length. Its cells are smaller on average than the rate asks, and the largest, at its foot, have 1.4 times the
+/// Length of a triangle along u over the length of its foot, as a root mean square over its area, since its edge v = 1
+/// has no length. On average its cells are smaller than the rate asks; the largest, at its foot, have 1.4 times the
 /// area.
 constexpr float kTriangle = 0.70710678f;
 
@@ -64,8 +64,8 @@ void measureSome(const Object& o, const Pose& pose, const Camera& camera, int co
   }
 }
 
-/// Calls measureAt(pose, put of sizes) at each key that counts; out(i) is the size of patch i, the larger of those at
-/// the keys. Where a patch is behind the eye or outside of the picture its size is not limited.
+/// Calls measureAt(pose, put of sizes) at each key that is measured; out(i) is the largest size of patch i over the
+/// keys. Where a patch is behind the eye or outside of the picture its size is not limited.
 template <class MeasureAt, class Out>
 void measureAtKeys(const Object& o, const Camera& camera, const MeasureAt& measureAt, const Out& out) {
   const size_t last = o.keyTimes.size() - 1, keys = std::min(last + 1, kMostKeys);

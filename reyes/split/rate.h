@@ -10,8 +10,8 @@ namespace tomales {
 /// The largest values among some lines of a rectangle along u, or along v.
 struct LineSize {
   float px = 0, length = 0;  ///< Lengths in raster space and in camera space.
-  int least = 1;             ///< Least number of cells: a line that bends round would enclose nothing with fewer.
-  float bend_px = 0;         ///< Largest second difference of four stretches of a line, across it.
+  int least = 1;             ///< Least number of cells: with fewer, a closed line would enclose nothing.
+  float bend_px = 0;         ///< Largest second difference of four parts of a line, across it.
 };
 struct PatchSize {
   LineSize u, v;
@@ -19,7 +19,7 @@ struct PatchSize {
   /// applied to all.
   float area_px2 = 0;
   Bound3 probes;  ///< Bound of the points that were measured, in camera space.
-  /// Keeps the larger of both in every member.
+  /// Sets every member to the larger of both.
   void extend(const PatchSize& other);
 };
 PatchSize measure(const Object& object, const Camera& camera, uint32_t patch, const UvRect& rect);

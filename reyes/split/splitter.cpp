@@ -10,19 +10,19 @@ namespace {
 /// Greatest number of halvings of one patch; beyond, the piece is smaller than a float can represent.
 constexpr int kMaxDepth = 48;
 /// A bound that is larger than the lines on its piece by this factor does not shrink with the piece: it is rounding, or
-/// the circle in which a ribbon may turn. From kSlackDepth on, points measured on the piece show its position;
+/// the circle in which a ribbon may turn. From kSlackDepth on, the position is taken from points on the piece;
 /// otherwise nothing near the eye would ever be culled.
 constexpr float kSlack = 8;
 constexpr int kSlackDepth = 8;
 constexpr float kLeastReach_px = 0.05f;  ///< Vertices are snapped by this, and it closes T-vertices.
-constexpr int kRound_cells = 6;  ///< A disk of at most so many cells is shaded as one cell: only P varies over it.
-/// Greatest width of the bound of a dot, in edges of a micropolygon. The bound is 1.5 times as wide as the disk. A disk
-/// within it takes few cells however it is measured.
+constexpr int kRound_cells = 6;  ///< A disk of at most this many cells is shaded as one cell: only P varies over it.
+/// Greatest width of a dot's bound, in edges of a micropolygon. The bound is 1.5 times as wide as the disk. A disk of
+/// this size needs few cells by any measure.
 constexpr float kDot = 4;
-/// Lazy splitting halves a patch up to so often, and leaves a coarse piece if it then has so many grids or more.
+/// Lazy splitting halves a patch at most this often, and leaves a coarse piece if it then has this many grids or more.
 constexpr int kHalvingsAtOnce = 6;
 constexpr int64_t kGridsOfCoarse = 64;
-/// A piece that so many halvings have not made a quarter as long is one across which the surface jumps.
+/// If this many halvings have not made a piece a quarter as long, the surface jumps across it.
 constexpr int kVainHalvings = 8;
 
 std::pair<UvRect, UvRect> halves(const UvRect& r, bool alongU) {
@@ -41,7 +41,7 @@ bool hasMiddle(float from, float to) {
 }
 
 /// Tells whether a patch is flat, also in its shading. As a single cell it then reaches out only to close T-vertices,
-/// and most small ones are missed by all samples.
+/// and all samples miss most small ones.
 bool isFlat(const Object& o, uint32_t patch) {
   const std::vector<Primvar>& primvars = o.shape().primvars();
   return o.displacementBound <= 0 && o.shape().info(patch).planar &&
@@ -182,7 +182,7 @@ bool Splitter::isEstimable(const Measured& m) const {
 }
 
 void Splitter::takeGrid(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out) {
-  // A piece that moves through the eye plane does so however small it is; it is seen while it stays in front.
+  // A piece that moves through the eye plane does so at any size; it is visible while it is in front.
   if (m.crossesEye && !isStill()) ++givenUp_.atEye;
   if (!isStill() || camera_.defocuses())
     budget_ -= visits_.ofBlur(view_.rasterOf(m.bare, m.reach_px), object_.keyTimes.size());

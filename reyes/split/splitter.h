@@ -46,7 +46,7 @@ class Splitter {
   void splitWithin(int64_t visits, uint32_t patch, const UvRect& rect, int depth, const Known* known,
                    std::vector<SubPatch>& out);
 
-  /// The last piece around a piece that was four times as long.
+  /// The latest enclosing piece that was four times as long.
   struct Shrunk {
     float edgeLengths = HUGE_VALF;
     int depth = 0;
@@ -60,7 +60,7 @@ class Splitter {
     Bound3 bound;       ///< The same after displacement.
     bool crossesEye;
     int nu, nv;      ///< Cells that the rate asks for.
-    float reach_px;  ///< How far the hider may push its border out.
+    float reach_px;  ///< Distance by which the hider may push its border out.
   };
   /// Returns nothing for a piece that cannot be seen. `known` may be null.
   std::optional<Measured> measured(uint32_t patch, const UvRect& rect, int depth, const Known* known);
@@ -78,12 +78,12 @@ class Splitter {
   /// Takes a piece that one grid can hold.
   void takeGrid(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out);
 
-  /// Takes a piece of a plane that floats cannot divide as one cell, however large it is in the picture. None may reach
+  /// Takes a flat piece that floats cannot divide as one cell, however large it is in the picture. It must not reach
   /// through the eye plane.
   void takeSmallest(uint32_t patch, const UvRect& rect, int depth, const Measured& m, std::vector<SubPatch>& out);
 
-  /// Cuts a long and narrow piece, which would be diced whole for the end that is seen. Its measured size holds for the
-  /// parts.
+  /// Cuts a long and narrow piece, which would otherwise be diced as a whole for its visible end. Its measured size is
+  /// used for the parts.
   void cutAcross(uint32_t patch, const UvRect& rect, int depth, int nu, int nv, std::vector<SubPatch>& out);
 
   SubPatch roundPiece(uint32_t patch, const UvRect& rect, const Bound2& raster, float zMin) const;

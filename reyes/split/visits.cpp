@@ -5,10 +5,11 @@
 namespace tomales {
 namespace {
 
-/// Limits of the pieces that one patch may visit: so many times those that cover the window once, and a number for
-/// small windows. A ground plane up to its horizon takes about ten, as its grids lie over each other there. Only
-/// coordinates beyond the precision or range of floats, which no halving makes small, come near it. Patches of one
-/// object share what exceeds the least, or a mesh of them would take hours.
+/// Limits on the pieces that splitting a patch may visit: a multiple of the number that covers the window once, and a
+/// least number for small windows. A ground plane up to its horizon takes about ten times the number that covers the
+/// window, because its grids overlap there. Only coordinates beyond the precision or range of floats, which no halving
+/// makes small, come near the limit. Patches of one object share what exceeds the least number, because a mesh of many
+/// patches would take hours otherwise.
 constexpr double kLayersOfObject = 128, kLayersOfPatch = 16;
 constexpr double kVisitsOfObject = 1 << 14, kVisitsOfPatch = 1 << 9;
 /// The cost of a blurred piece beyond its visit, if it may be seen all over the window: each sample there is tested
@@ -31,9 +32,8 @@ int64_t Visits::ofBlur(const Bound2& raster, size_t keyTimes) const {
   return static_cast<int64_t>(kVisitsOfBlur * keys * (size.x * size.y) / windowArea());
 }
 
-/// They are its share of grids by area, those that the window's border may cut, and the halvings that lead from all of
-/// it to them. Towards a horizon many grids lie over each other; beside the eye next to nothing of a huge piece is
-/// seen.
+/// The result counts its share of grids by area, grids that the window's border may cut, and the halvings that lead to
+/// them. Towards a horizon many grids overlap; beside the eye almost nothing of a huge piece is visible.
 double Visits::expected(const SubPatch& p) const {
   const int64_t all = grids(p.nu, p.nv);
   const glm::dvec2 size = p.raster.hi - p.raster.lo, seen = sizeInWindow(p.raster);

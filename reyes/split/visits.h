@@ -1,5 +1,5 @@
-// Private to splitting: how many pieces a patch may visit, so that splitting ends. Pure; lengths are in pixels of the
-// raster.
+// Private to splitting: the number of pieces that splitting a patch may visit, so that it ends. Pure; lengths are in
+// pixels of the raster.
 #pragma once
 #include "reyes/split.h"
 
@@ -13,14 +13,14 @@ class Visits {
 
   /// Returns the budget of one of an object's `patches`.
   int64_t ofPatch(uint32_t patches) const;
-  /// Returns the cost of a blurred piece beyond its visit, of an object with so many key times.
+  /// Returns the cost of a blurred piece beyond its visit, of an object with this many key times.
   int64_t ofBlur(const Bound2& raster, size_t keyTimes) const;
   /// Returns the visits that a coarse piece is expected to take.
   double expected(const SubPatch& coarse) const;
 
   int64_t grids(int nu, int nv) const { return static_cast<int64_t>(nu) * nv / gridSize_; }
-  /// Tells whether much of the bound is in the window. If not, halving soon culls most of it, and the visits that it
-  /// takes until then have little to do with its grids: a strip that runs past the eye is thousands of windows wide.
+  /// Tells whether much of the bound is in the window. If not, halving soon culls most of it, and the number of visits
+  /// depends little on its grids: a strip that runs past the eye is thousands of windows wide.
   bool isLargelySeen(const Bound2& raster) const;
 
  private:

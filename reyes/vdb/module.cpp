@@ -18,12 +18,12 @@ namespace vdb = openvdb;
 /// A grid of more than this would not fit into the memory of most machines.
 constexpr double kMostBytes = 16e9;
 
-/// A sentence for the user, without the library's own prefixes.
+/// An error with a sentence for the user, without the library's own prefixes.
 struct VdbProblem : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the name without the ending that gives the class of the grid.
+/// Returns the name without the suffix that states the class of the grid.
 std::string withoutClass(const std::string& name, vdb::GridClass& given) {
   const auto ends = [&](const char* with) { return name.ends_with(with); };
   if (ends(":fogvolume")) given = vdb::GRID_FOG_VOLUME;
@@ -37,8 +37,8 @@ std::string namesIn(const vdb::io::File& file) {
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The library reads zeros where a file ends too early, so this looks at what the file says of its length. The layout
-/// is that of version 222 and later, which OpenVDB has written since 2013.
+/// The library reads zeros where a file ends too early, so this checks the lengths that the file states. The layout is
+/// of version 222 and later, which OpenVDB has written since 2013.
 void throwIfCut(const std::string& path) {
   constexpr uint32_t kLeastVersion = 222;
   constexpr std::streamoff kMagicBytes = 8, kLibraryBytes = 8, kOffsetsAndUuidBytes = 1 + 36;
@@ -91,7 +91,7 @@ mat4 indexFromObject(const vdb::FloatGrid& grid) {
 
 ivec3 pointOf(const vdb::Coord& c) { return {c.x(), c.y(), c.z()}; }
 
-/// Copies active values, tiles among them, and what leaves hold besides.
+/// Copies active values, including tiles, and the inactive values of leaves.
 void fill(const vdb::FloatGrid& grid, DensityGrid& out) {
   static_assert(vdb::FloatTree::LeafNodeType::DIM == DensityGrid::kSide);
   for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf)

@@ -1,5 +1,5 @@
-/* Materials as functions: what a surface of the colour given sends to the viewer. The names and arguments are those
- * with which "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) has made such a header known.
+/* Materials as functions: what a surface of the given colour sends to the viewer. Names and arguments are those of the
+ * header that "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) made known.
  */
 #ifndef MATERIAL_H
 #define MATERIAL_H

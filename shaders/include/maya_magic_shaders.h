@@ -1,4 +1,4 @@
-/* What shaders call that MayaMan has written from networks of Maya's nodes. A node is two macros, NODE_SETUP(v) and
+/* Macros for shaders that MayaMan wrote from networks of Maya's nodes. A node is two macros, NODE_SETUP(v) and
  * NODE_SIM(v). v is the beginning of the names of the node's attributes: the colour of v_0_ is v_0_color. The models
  * are those that Maya's documentation names.
  */

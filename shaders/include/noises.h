@@ -1,6 +1,6 @@
 /* Noise with both signs, sums of octaves of it that fade where a sample is too wide for them, and cells of random
- * points (S. Worley, "A Cellular Texture Basis Function", 1996). The names and arguments are those with which
- * "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) has made such a header known.
+ * points (S. Worley, "A Cellular Texture Basis Function", 1996). Names and arguments are those of the header that
+ * "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) made known.
  */
 #ifndef NOISES_H
 #define NOISES_H

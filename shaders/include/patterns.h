@@ -1,5 +1,5 @@
-/* Steps and pulses, sharp ones as a filter of a given width sees them, and tiles. The names and arguments are those
- * with which "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) has made such a header known.
+/* Steps and pulses, sharp ones as a filter of a given width sees them, and tiles. Names and arguments are those of the
+ * header that "Advanced RenderMan" (A. Apodaca and L. Gritz, 1999) made known.
  */
 #ifndef PATTERNS_H
 #define PATTERNS_H

@@ -1,7 +1,7 @@
 /* Reflections from environment maps.
  *
- * A shader that has these takes DECLARE_DEFAULTED_ENVPARAMS among its parameters, a function DECLARE_ENVPARAMS, and
- * both hand on ENVPARAMS: the name of a map ("": none), the space that it was made in, and the radius of the sphere
+ * A shader that uses them takes DECLARE_DEFAULTED_ENVPARAMS among its parameters, a function takes DECLARE_ENVPARAMS,
+ * and both pass on ENVPARAMS: the name of a map ("": none), the space that it was made in, and the radius of the sphere
  * that it is painted on, in that space; 0: far away.
  */
 #ifndef REFLECTIONS_H

@@ -1,5 +1,4 @@
-/* Layers, tiles and random numbers, by the names that S. May's "RManNotes" (Ohio State University, 1995) has made
- * known. */
+/* Layers, tiles and random numbers, by the names that S. May's "RManNotes" (Ohio State University, 1995) made known. */
 #ifndef RMANNOTES_H
 #define RMANNOTES_H
 
@@ -41,7 +40,7 @@
 #define complement(a) (1 - (a))
 #endif
 
-/* Divides a unit into so many tiles: the position in its tile, from 0 to 1, and the number of the tile. */
+/* Divide a unit into `frequency` tiles, and give the position in its tile, from 0 to 1, and the number of the tile. */
 #ifndef repeat
 #define repeat(position, frequency) mod((position) * (frequency), 1)
 #endif

@@ -54,7 +54,7 @@ for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind th
                            ("out of view", ("0 0 4", "9 0 4"), "outside the view"), ("hidden", ("matte", "null"), "is hidden"),
                            ("not there", ("Sphere", "#"), "no geometry")):
     t.write("empty.rib", GOOD.replace(*change))
-    t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 3, "nothing is to be seen", says)
+    t.expect_run("a scene whose geometry is " + what, ["empty.rib"], 3, "nothing is visible", says)
 t.write("good.rib", GOOD)
 for verb, output in (("render", "sliver.exr"), ("hide", "sliver.dfb")):
     t.expect_run(f"a crop between two pixels, {verb}", [verb, "good.rib", "--format", "24x20", "--crop", "0,1,0.801,0.814", "-o", output], 3,

@@ -90,7 +90,7 @@ near = [(.5 * math.sqrt(1 - z * z) * math.cos(a), .5 * math.sqrt(1 - z * z) * ma
 half = sum(z / ((x - at[4]) ** 2 + (y - at[4]) ** 2 + z * z) ** 1.5 for x, y, z in near) / len(near)
 t.expect(abs(two[4, 4][0] / half - 1) < 0.05, f"  what stands in it hides the far half ({two[4, 4][0]:.3f} of {half:.3f})")
 expect("downward", render("downward", lamp("downward")), lambda px, py, square: 1.5 / square ** 1.5, "with the cosine at the lamp, by N")
-t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP), 0, "comes to nothing").values()) == 0, "  whose other side looks away")
+t.expect(max(p[0] for p in render("upward", lamp("downward", points=UP), 0, "reaches nothing").values()) == 0, "  whose other side looks away")
 expect("half", render("half", lamp("half", '"float __samples" [256]')), lambda px, py, square: float(px > 0), "P tells where on the lamp, in any space", 0.08)
 seen = render("normals", lamp("normals"))[4, 4]
 t.expect(seen[0] == seen[1] > 0.5 and abs(seen[0] - seen[2]) < 1e-4, f"  N and Ng are those of the lamp: towards the floor ({seen[:3]})")

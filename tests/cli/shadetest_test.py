@@ -67,9 +67,9 @@ def check(what, body, faults, kind="TM_SURFACE", capabilities="0", before="", pa
 
 MATTE = "const auto light = b.diffuse(b.facingNormals()); for (int i : b) b.output(i, b.Cs(i) * light[i], %s);"
 check("a sound shader", MATTE % "b.Os(i)", [], capabilities="TM_KEEPS_OPACITY | TM_EVEN")
-check("another opacity", MATTE % "0.5f * b.Os(i)", ['shader "tried" has another Oi than Os, and has declared TM_KEEPS_OPACITY'], capabilities="TM_KEEPS_OPACITY")
+check("another opacity", MATTE % "0.5f * b.Os(i)", ['shader "tried" writes another Oi than Os, but has declared TM_KEEPS_OPACITY'], capabilities="TM_KEEPS_OPACITY")
 check("which it may have", MATTE % "0.5f * b.Os(i)", [])
-check("a glow", "for (int i : b) b.output(i, {1, 1, 1}, b.Os(i));", ["adds light where there is none, and has not declared TM_EMITS"])
+check("a glow", "for (int i : b) b.output(i, {1, 1, 1}, b.Os(i));", ["adds light where there is none, but has not declared TM_EMITS"])
 check("that is declared", "for (int i : b) b.output(i, {1, 1, 1}, b.Os(i));", [], capabilities="TM_EMITS")
 check("dots on an even surface", "const auto light = b.diffuse(b.facingNormals()); for (int i : b) b.output(i, g->s[i] * light[i], b.Os(i));",
       ["does not look the same everywhere"], capabilities="TM_EVEN")

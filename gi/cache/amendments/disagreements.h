@@ -1,8 +1,8 @@
 // Private to gi/irradiance_cache: two records that disagree about a place, by more than their noise explains, end
 // before each other. A point at which its records disagree gets a record of its own. Between such records lies an edge
 // of light, or something thinner than they are wide. Without this amendment, twice as many dark pixels behind thin
-// walls get light, and the worst windows have a third more error. It costs a twentieth more records, and as much more
-// time.
+// walls get light, and the worst windows have a third more error. It costs a twentieth more records and a twentieth
+// more time.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 #include "gi/error_function.h"
@@ -34,9 +34,9 @@ class Disagreements {
     return off > kDiscontinuous * std::max(larger, dark) ? Disagreement::Discontinuous : Disagreement::Steep;
   }
 
-  /// Returns how far a record may reach that disagrees at this distance. Where light is merely steep, it reaches a
-  /// pixel at least: records closer than that would follow the noise of single pixels, each at the cost of a
-  /// hemisphere. Where two points see different surfaces there is no such limit, since something thinner than a pixel
+  /// Returns how far a record may reach if it disagrees with another one at this distance. Where light is merely steep,
+  /// it reaches a pixel at least: records closer than that would follow the noise of single pixels, each at the cost of
+  /// a hemisphere. Where two points see different surfaces there is no such limit, since something thinner than a pixel
   /// may lie between them.
   float limit(Disagreement disagreement, float distance, float pixelSize) const {
     if (disagreement == Disagreement::None) return kInfinity;

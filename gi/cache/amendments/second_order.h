@@ -1,7 +1,7 @@
-// Private to gi/irradiance_cache: each record is extrapolated by its own gradient. Where light bends, their mean is
-// off, and how much the gradients differ tells by how much. Here the mean is corrected to the second order, without any
-// derivative that records do not have. The error of all scenes falls by a fortieth, that at thin walls by an eighth. No
-// cost was measured (docs/decisions/0096, docs/decisions/0105).
+// Private to gi/irradiance_cache: each record is extrapolated by its own gradient. Where the light is curved, the mean
+// of the records is off, and the differences of their gradients tell by how much. Here the mean is corrected to the
+// second order, without any derivative that records do not have. The error of all scenes falls by a fortieth, that at
+// thin walls by an eighth. No cost was measured (docs/decisions/0096, docs/decisions/0105).
 #pragma once
 #include "gi/cache/extrapolation.h"
 
@@ -15,7 +15,7 @@ inline vec3 bentBy(const IrradianceRecord& r, const IrradianceExpansion& light, 
   return a * a * light.hessian[0] + 2 * a * b * light.hessian[1] + b * b * light.hessian[2];
 }
 
-/// Mean of records that are all extrapolated to one place, with what it needs to be corrected to the second order. A
+/// Mean of records that are all extrapolated to one place, with the sums that its second-order correction needs. A
 /// record at a distance s is off by -s H s / 2 after extrapolation by its gradient, and gradients so far apart differ
 /// by H s. So the mean over the records is off by half the covariance of gradient and step, which needs no second
 /// derivative, and by -s H s / 2 of the mean step, which is small where records lie on all sides. This holds where the
@@ -32,8 +32,9 @@ class MeanExtrapolation {
     square_ += weight * E * E;
     return E;
   }
-  /// Does the same for a share of the record's light. A channel counts where that of the whole does (`whole`, which is
-  /// what another mean's add() returned), so that shares add up to it. Do not ask for agreement() then.
+  /// Does the same for a share of the record's light. `whole` is what another mean's add() returned for the whole
+  /// record. Channels that are 0 there are 0 here too, so that the shares add up to it. agreement() must not be called
+  /// then.
   vec3 addShare(const IrradianceRecord& r, const IrradianceExpansion& share, float weight, const vec3& whole) {
     const vec3 E = share.E + addLight(r, share, weight);
     return vec3(glm::greaterThan(whole, vec3(0.0f))) * E;
@@ -45,8 +46,8 @@ class MeanExtrapolation {
     for (int c = 0; c < 3; ++c) out[c] -= (dot(turn_, rotation_[c]) + dot(step_, translation_[c])) / weight_;
     return out / weight_;
   }
-  /// Returns 1 where all records agree and 0 where they differ by kApart of their mean (rms): the second order is to be
-  /// trusted so far.
+  /// Returns how far the second order may be trusted: 1 where all records agree, and 0 where they differ by kApart of
+  /// their mean (rms).
   vec3 agreement() const {
     constexpr float kApart = 0.3f, kLeast = 1e-30f;
     const vec3 mean = E_ / weight_, variance = square_ / weight_ - mean * mean;

@@ -28,8 +28,8 @@ fs::path planFile(const std::string& given) {
   return fs::is_directory(given, none) ? fs::path(given) / kPlanName : fs::path(given);
 }
 
-/// Tells how many frames are finished, some times a second: to count them takes time. Farms read the share in lines of
-/// their form; a terminal gets a sentence.
+/// Reports how many frames are finished, a few times a second, because counting takes time. Farms get the share in
+/// lines that they read; a terminal gets a sentence.
 class ProgressLines {
  public:
   explicit ProgressLines(const BatchPlan& plan) : plan_(plan) {}
@@ -89,7 +89,7 @@ class BatchRun {
     return plan && !command_.planOnly ? submit(*plan) : exitCodeOf(log_);
   }
 
-  /// Makes the plan. One that is there already is kept if it is the same, and else refused: it may be under way.
+  /// Makes the plan. An existing plan is kept if it is the same, and otherwise refused, because it may be running.
   std::optional<BatchPlan> planned() {
     if (command_.folder.empty()) command_.folder = fs::path(command_.what.front()).stem().string() + ".batch";
     command_.plan.file = fs::path(command_.folder) / kPlanName;
@@ -97,9 +97,11 @@ class BatchRun {
     auto plan = makePlan(command_.plan, log_);
     if (!plan) return std::nullopt;
     if (command_.plan.tileCount() > 1 && !command_.onSlurm && static_cast<int>(plan->pictures.size()) >= processes())
-      log_.report(Severity::Note, "batch-tiles-cost", {},
-                  fmt::format("--tiles: {} frames are enough for {} at a time, and frames in tiles take more CPU time",
-                              plan->pictures.size(), processes()));
+      log_.report(
+          Severity::Note, "batch-tiles-cost", {},
+          fmt::format(
+              "--tiles: {} frames keep {} tasks at a time busy without tiles, and frames in tiles take more CPU time",
+              plan->pictures.size(), processes()));
     if (command_.onSlurm) {
       checkSlurm(command_.slurm);
       refuseIfOnCluster(*plan);
@@ -137,10 +139,10 @@ class BatchRun {
     return show(plan, states);
   }
 
-  /// Returns the most tasks at a time here.
+  /// Returns the greatest number of tasks at a time on this machine.
   int processes() const { return command_.processes > 0 ? command_.processes : threadCount(); }
 
-  /// Returns the exit code: that of missing output if tasks have failed.
+  /// Prints the report. Returns the exit code, which is that of missing output if tasks have failed.
   int show(const BatchPlan& plan, const std::vector<TaskState>& states) {
     const BatchReport report = reportOf(plan, states);
     std::fputs((command_.json ? jsonOf(plan, states) + "\n" : textOf(plan, report)).c_str(), stdout);

@@ -1,4 +1,4 @@
-// Verb: scene -> what a batch has to know of its frames before it makes a plan of them. Threads: one caller.
+// Verb: scene -> the facts about its frames that a batch needs for its plan. Threads: one caller.
 #pragma once
 #include <limits>
 #include <map>
@@ -15,7 +15,7 @@ struct FrameFiles {
   bool maps = false;                            ///< It writes maps for later frames, and nothing else.
   bool joins = true;                            ///< All are pictures in OpenEXR that can be made of tiles.
   std::vector<std::string> files;               ///< The first is the picture.
-  std::vector<std::vector<std::string>> tiles;  ///< The same for each tile; empty without tiles.
+  std::vector<std::vector<std::string>> tiles;  ///< The files of each tile; empty without tiles.
   std::optional<SharedLight> light;
 };
 
@@ -28,7 +28,7 @@ struct BatchFrames {
 };
 
 /// Reads the scene once, without rendering. Returns nothing if it cannot be read or has no such frames, or if rendering
-/// them by such a plan would go wrong, which is reported. `plan`: its folder will hold the tiles.
+/// them by such a plan would go wrong, which is reported. The folder of `plan` will hold the tiles.
 std::optional<BatchFrames> readFrames(const PlanOptions& options, const BatchPlan& plan, Log& log);
 
 }  // namespace tomales

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMostOfArray = 1000;  ///< Slurm's MaxArraySize is 1001 unless it is set.
 
-/// Needs that all tasks have.
+/// Returns the needs that all tasks have.
 std::vector<std::string> commonNeeds(const std::vector<const BatchTask*>& tasks) {
   std::map<std::string, size_t> counts;
   for (const BatchTask* t : tasks)
@@ -23,8 +23,8 @@ std::vector<std::string> commonNeeds(const std::vector<const BatchTask*>& tasks)
   return out;
 }
 
-/// Returns the arrays of which each of these tasks needs the one of its own number, besides what all of them need.
-/// Returns nothing if the needs are not of this form.
+/// Returns the arrays such that task i of these needs task i of each array, besides common needs. Returns nothing if
+/// the needs are not of this form.
 std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const BatchTask*>& tasks,
                                                       const JobArrays& arrays) {
   const std::vector<std::string> common = commonNeeds(tasks);
@@ -51,7 +51,7 @@ std::optional<std::vector<const JobArray*>> leadersOf(const std::vector<const Ba
   return out;
 }
 
-/// Divides tasks into parts of as many as an array may have.
+/// Divides tasks into parts that are no larger than an array may be.
 std::vector<std::vector<const BatchTask*>> inParts(const std::vector<const BatchTask*>& tasks) {
   std::vector<std::vector<const BatchTask*>> out;
   for (size_t i = 0; i < tasks.size(); ++i) {
@@ -64,7 +64,7 @@ std::vector<std::vector<const BatchTask*>> inParts(const std::vector<const Batch
 }  // namespace
 
 JobArrays jobArraysOf(const std::vector<BatchTask>& wanted) {
-  std::vector<std::string> stages;  // tasks that can begin at once are apart from those of the same stage that wait
+  std::vector<std::string> stages;  // tasks that can begin at once are separate from waiting ones of the same stage
   std::map<std::string, std::vector<const BatchTask*>> byStage;
   for (const BatchTask& t : wanted) {
     const std::string stage = t.needs.empty() ? t.stage : t.stage + ".later";

@@ -1,4 +1,4 @@
-// Runs a plan here, by some processes at a time.
+// Runs a plan on this machine, with several processes at a time.
 #pragma once
 #include <functional>
 
@@ -6,9 +6,9 @@
 
 namespace tomales {
 
-/// Runs all tasks that are not done, each up to kMostAttempts times. A task that keeps failing holds up those that need
-/// it alone. It returns early when the process is asked to end, and `changed` is called after each task. Returns the
-/// states.
+/// Runs all tasks that are not done, each up to kMostAttempts times. A task that keeps failing holds up only the tasks
+/// that need it. It returns early when the process is asked to end, and `changed` is called after each task. Returns
+/// the states.
 std::vector<TaskState> runLocally(const BatchPlan& plan, int processes,
                                   const std::function<void(const std::vector<TaskState>&)>& changed);
 

@@ -47,7 +47,8 @@ class PlanMaker {
   }
 
  private:
-  /// Frames that make maps, and Make requests, as they follow each other. Returns the tasks that all other frames need.
+  /// Adds frames that make maps, and Make requests, in the order of the stream. Returns the tasks that all other frames
+  /// need.
   std::vector<std::string> addMaps() {
     std::vector<std::string> needs, since;  // needs: the last Make requests; since: the frames after them
     int make = 0, makes = 0;
@@ -183,7 +184,7 @@ class PlanMaker {
   std::string recordsOf(int frame) const { return plan_.workOf(frame, ".icf").string(); }
 
   /// `before`: the frame whose records it begins with; its own number if there is none. `place`: its place in the
-  /// group, with which the names of its stages end.
+  /// group, which ends the names of its stages.
   void addGather(int number, int before, const std::string& place, const std::vector<std::string>& maps) {
     const LightOfFrame shared = lightOf(number);
     const std::string hide = taskName(number, "hide");
@@ -215,7 +216,7 @@ class PlanMaker {
     plan_.tasks.push_back(std::move(gather));
   }
 
-  /// `records`: the frame whose records it is shaded with; they stay if others are, too.
+  /// `records`: the frame whose records it is shaded with. They are kept if `others` are shaded with them too.
   void addShade(int number, int records, bool others) {
     const FrameFiles& frame = scene_.frames.at(number);
     std::vector<std::string> before, unneeded{shotOf(number)};
@@ -264,7 +265,7 @@ class PlanMaker {
   Log& log_;
   BatchPlan plan_;
   BatchFrames scene_;
-  /// Arguments for frames other than maps: the target that their light has to reach.
+  /// Arguments for frames that are no maps: the target that their light has to reach.
   std::vector<std::string> target_;
   std::map<int, LightOfFrame> light_;
 };

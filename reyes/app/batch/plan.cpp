@@ -40,7 +40,7 @@ bool isPlainName(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.front() != '-' && std::all_of(name.begin(), name.end(), plain);
 }
 
-/// Kahn's order; tasks that are ready at the same time keep their order.
+/// Returns the tasks in topological order (Kahn's algorithm). Tasks that are ready at the same time keep their order.
 std::vector<BatchTask> inOrder(const BatchPlan& plan) {
   std::map<std::string, std::vector<size_t>> followers;
   std::vector<size_t> missing(plan.tasks.size());
@@ -80,7 +80,8 @@ void checkPlan(BatchPlan& plan) {
   std::map<std::string, std::string> makers;
   for (const BatchTask& t : plan.tasks) {
     if (!isPlainName(t.name))
-      refusePlan(plan, fmt::format("\"{}\" is no name of a task: letters, digits, - _ and . make one", t.name));
+      refusePlan(plan,
+                 fmt::format("\"{}\" is no name of a task: such a name has letters, digits, - _ and . only", t.name));
     if (!names.insert(t.name).second) refusePlan(plan, fmt::format("two tasks are called \"{}\"", t.name));
     if (t.arguments.empty()) refusePlan(plan, fmt::format("task \"{}\" has no arguments", t.name));
     for (const std::string& file : t.makes)

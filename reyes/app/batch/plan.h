@@ -27,7 +27,7 @@ struct BatchPlan {
 
   std::filesystem::path folder() const { return file.parent_path(); }
   std::filesystem::path logOf(const BatchTask& task) const { return folder() / "log" / (task.name + ".log"); }
-  /// Returns a file between tasks of a frame.
+  /// Returns the path of an intermediate file, which one task of a frame writes for another.
   std::filesystem::path workOf(int frame, const std::string& end) const;
   std::filesystem::path stateOf(const BatchTask& task) const { return folder() / "state" / (task.name + ".json"); }
   /// Returns null if there is none.
@@ -37,10 +37,10 @@ struct BatchPlan {
 /// Throws FileError if the file is no plan, names a task twice or one that it lacks, has two tasks that make one file,
 /// or if tasks wait for each other in a circle. Tasks come in an order in which they can run.
 BatchPlan readPlan(const std::filesystem::path& file);
-/// Checks likewise, and puts the tasks in order. Throws FileError.
+/// Makes the same checks, and puts the tasks in order. Throws FileError.
 void checkPlan(BatchPlan& plan);
 std::string planText(const BatchPlan& plan);
-/// Makes the folders of states, logs and files between beside the plan. Throws WriteError.
+/// Makes the folders of states, logs and intermediate files beside the plan. Throws WriteError.
 void makeFolders(const BatchPlan& plan);
 /// Throws WriteError.
 void writePlan(const BatchPlan& plan);

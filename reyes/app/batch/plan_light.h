@@ -1,4 +1,4 @@
-// Verb: what frames know of their maps of light -> the tasks that make these before them. Threads: one caller.
+// Verb: the maps of light that frames need -> the tasks that make them before the frames. Threads: one caller.
 #pragma once
 #include <map>
 
@@ -12,7 +12,7 @@ struct LightOfFrame {
   std::string folder;                ///< Folder for --atlas; empty: as the user gave it.
   std::vector<std::string> needs;    ///< The tasks that make the maps.
   std::vector<std::string> removes;  ///< Files that nobody needs after the frame.
-  /// Tasks to be run with the scene of this frame; one that needs none of the others has no needs yet.
+  /// Tasks to be run with the scene of this frame. A task that needs none of the others still has an empty `needs`.
   std::vector<BatchTask> tasks;
 };
 

@@ -45,7 +45,7 @@ struct FrameFigures {
   }
 };
 
-/// Returns for each task the failed one that it waits for, directly or by way of others; null if there is none.
+/// Returns for each task the failed task that it waits for, directly or through others; null if there is none.
 std::vector<const BatchTask*> blockersOf(const BatchPlan& plan, const std::vector<TaskState>& states) {
   std::map<std::string, const BatchTask*> blockerOfThose;  // of tasks that need the one of this name
   std::vector<const BatchTask*> out;
@@ -79,7 +79,7 @@ std::map<int, FrameFigures> figuresOf(const BatchPlan& plan, const std::vector<T
   return out;
 }
 
-/// Numbers of the other frames that task `failed` holds up.
+/// Returns the numbers of the other frames that task `failed` holds up.
 std::vector<int> framesBehind(const BatchPlan& plan, size_t failed, const std::vector<const BatchTask*>& blockers) {
   std::set<int> out;
   for (size_t i = failed + 1; i < blockers.size(); ++i)
@@ -88,7 +88,7 @@ std::vector<int> framesBehind(const BatchPlan& plan, size_t failed, const std::v
   return {out.begin(), out.end()};
 }
 
-/// Numbers of frames as --frames takes them.
+/// Returns numbers of frames in the form of --frames.
 std::string rangesOf(const std::vector<int>& numbers) {
   std::string out;
   for (size_t i = 0; i < numbers.size();) {

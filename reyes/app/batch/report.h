@@ -17,7 +17,7 @@ struct BatchReport {
   std::vector<BatchFailure> failures;
   double cpu_s = 0;
   int64_t peak_bytes = 0;
-  /// Estimated from the tasks that are done, by as many at a time as run now; negative: not known.
+  /// Seconds left, estimated from the tasks that are done, with as many at a time as run now; negative: not known.
   double left_s = -1;
 
   size_t frames() const { return finished.size() + running.size() + failed.size() + blocked.size() + waiting.size(); }

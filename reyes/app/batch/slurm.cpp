@@ -38,7 +38,7 @@ std::string outputOf(const std::vector<std::string>& command, int& code) {
     throw FileError("there is no \"" + command.front() +
                     "\" here: --engine slurm needs Slurm's programs (Debian: slurm-client), --engine local does not");
   int ends[2], problem = 0;
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw FileError("no pipe can be made");
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw FileError("a pipe cannot be made");
   const pid_t child = startChild({*program, command, {{ends[1], 1}, {ends[1], 2}}}, problem);
   ::close(ends[1]);
   std::string out;
@@ -68,7 +68,8 @@ std::vector<std::string> jobsOf(const BatchPlan& plan) {
   return out;
 }
 
-/// Returns a plan of these tasks alone: that of a long animation has many megabytes, which each task would read.
+/// Returns a plan of these tasks alone, because the plan of a long animation has many megabytes, which each task would
+/// read.
 BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
   BatchPlan out{plan.folder() / (array.name + ".json"), plan.workingFolder, {}, {}};
   for (const BatchTask* t : array.tasks) {
@@ -80,7 +81,7 @@ BatchPlan partOfPlan(const BatchPlan& plan, const JobArray& array) {
 
 std::string scriptOf(const BatchPlan& plan, const JobArray& array, const SlurmOptions& options) {
   std::string out = fmt::format(
-      "#!/bin/bash\n# Tasks of {} for Slurm. A task ends with exit code 75 when it shall begin again.\n"
+      "#!/bin/bash\n# Tasks of {} for Slurm. A task ends with exit code 75 if it is to begin again.\n"
       "#SBATCH --job-name={}\n#SBATCH --array=0-{}{}\n#SBATCH --ntasks=1 --cpus-per-task={}\n"
       "#SBATCH --requeue --open-mode=append --signal=B:TERM@60\n#SBATCH --output={}\n",
       plan.file.string(), array.name, array.tasks.size() - 1,
@@ -104,7 +105,7 @@ exit $code
                            quoted(partOfPlan(plan, array).file.string()), kMostAttempts, kRequeue);
 }
 
-/// Tasks that are not done, without needs that are.
+/// Returns the tasks that are not done, without their needs that are done.
 std::vector<BatchTask> wantedOf(const BatchPlan& plan) {
   const std::vector<TaskState> states = statesOf(plan);
   std::set<std::string> done;

@@ -60,7 +60,7 @@ RunningTask::RunningTask(const BatchPlan& plan, const BatchTask& task, int attem
 bool RunningTask::ended() {
   if (state_.kind != TaskState::Running) return true;
   int status = 0;
-  // The guard goes before the process is waited for: another may have its number afterwards.
+  // The guard is destroyed before the process is waited for, because its process id may be reused afterwards.
   siginfo_t info{};
   const bool isOurs = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0;
   if (isOurs ? info.si_pid == 0 : errno != ECHILD) return false;

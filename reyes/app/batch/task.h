@@ -11,16 +11,17 @@
 namespace tomales {
 
 constexpr int kMostAttempts = 3;
-/// The end of a task that was stopped and shall begin again elsewhere: EX_TEMPFAIL of sysexits.h.
+/// Exit code of a task that was stopped and shall be run again elsewhere: EX_TEMPFAIL of sysexits.h.
 constexpr int kRequeue = 75;
 
 class RunningTask {
  public:
-  /// Starts the program on it; messages go to the end of its log. Throws WriteError.
+  /// Starts the program with the task's arguments; its messages are appended to the task's log. Throws WriteError.
   RunningTask(const BatchPlan& plan, const BatchTask& task, int attempt);
-  /// Returns true when it has ended; its state has been written then, and files that nobody needs any more are gone.
+  /// Returns true when the process has ended. By then its state is written, and files that nobody needs any more are
+  /// gone.
   bool ended();
-  /// Asks it to end, as a farm does.
+  /// Asks the process to end, as a render farm does.
   void stop();
   const TaskState& state() const { return state_; }
   pid_t child() const { return child_; }

@@ -24,9 +24,9 @@ using Arguments = std::vector<std::string>;
 constexpr int kPictureSize = 200;
 constexpr double kReferenceShare = 1.0 / 3;  ///< Share of the budget for the reference,
 constexpr double kBatchShare = 0.03;         ///< and for one batch of it.
-constexpr int kFirstBatches = 4;             ///< Batches of the reference that are rendered before the points at least.
-constexpr double kQuiet = 0.25;   ///< A reference with this share of the least error needs no further batches.
-constexpr double kSilent = 1e-4;  ///< A noise floor below which there is nothing to gain.
+constexpr int kFirstBatches = 4;  ///< Least number of batches of the reference that are rendered before the points.
+constexpr double kQuiet = 0.25;  ///< A reference whose noise is this share of the least error needs no further batches.
+constexpr double kSilent = 1e-4;  ///< Below this noise floor, further batches gain nothing.
 constexpr int kTrialPaths = 64;
 
 Arguments operator+(Arguments a, const Arguments& b) {
@@ -40,7 +40,7 @@ std::string preludeIn(const std::string& argument) {
   return argument.starts_with(mark) ? argument.substr(mark.size()) : "";
 }
 
-/// Shows options without dashes and requests as they are, and leaves out what the name of the curve says.
+/// Returns options without dashes and requests unchanged, without words that the name of the curve has.
 std::string inShort(const Arguments& arguments) {
   std::string out;
   const auto add = [&](const std::string& piece) { out += (out.empty() ? "" : ", ") + piece; };
@@ -84,7 +84,7 @@ class Chart {
   }
 
   /// Measures the reference for its share of the budget, then all points, then more batches while the budget lasts.
-  /// When the chart is made again it goes on, and shows differences that a noisy reference hides now.
+  /// Another run of the chart continues from there, and shows differences that a noisy reference hides now.
   int run() {
     if (const std::string problem = placesProblem(settings_.output, labSettings_.folder); !problem.empty())
       return fail(Severity::Output, problem);
@@ -115,7 +115,7 @@ class Chart {
     return exitCode();
   }
 
-  /// Writes the command as bash takes it: requests before the scene become a file of their own.
+  /// Returns the command for bash. Requests before the scene become a file of their own.
   std::string commandLine(const Arguments& arguments) const {
     std::string out = "tomales render";
     Arguments options;
@@ -166,10 +166,10 @@ class Chart {
     const auto image = readImage(run->picture, badBatch_);
     if (!image) return false;
     if (!reference_.add(*image)) {
-      badBatch_ = "\"" + run->picture + "\" has another size than the batches before it";
+      badBatch_ = "\"" + run->picture + "\" differs in size from the batches before it";
       return false;
     }
-    const double noise = reference_.noiseFloor();  // one batch tells none
+    const double noise = reference_.noiseFloor();  // infinite with one batch
     log("reference", fmt::format("batch {}{}", reference_.batches(),
                                  std::isfinite(noise) ? fmt::format(", noise {:.3g} %", 100 * noise) : ""));
     return true;
@@ -198,7 +198,7 @@ class Chart {
                      [](const ChartPoint& a, const ChartPoint& b) { return a.curve < b.curve; });
   }
 
-  /// Returns CPU seconds; infinite if it could not be measured.
+  /// Measures a setting. Returns CPU seconds; infinity if it could not be measured.
   double measure(size_t curve, const Arguments& arguments) {
     const auto run = render(arguments);
     std::string error;

@@ -1,5 +1,4 @@
-// tomales chart: how small an error each second and megabyte buys, on the user's own scene, for every method and over
-// its settings.
+// tomales chart: plots error against time and memory on the user's own scene, for every method and over its settings.
 #pragma once
 #include <array>
 #include <optional>

@@ -82,7 +82,7 @@ MeanErrors meanErrors(const Image& test, const Image& reference, const Image& li
   return {sum.relative / n, sum.square / n};
 }
 
-/// Returns what is left of a square without the noise. `all` is the square with all `batches`; `meanOfOthers` is the
+/// Returns a squared error without the reference's noise. `all` is the square with all `batches`; `meanOfOthers` is the
 /// mean of the squares with one batch left out.
 double withoutNoise(double all, double meanOfOthers, double batches) {
   return std::max(0.0, batches * all - (batches - 1) * meanOfOthers);
@@ -119,8 +119,8 @@ Image ChartReference::meanWithout(size_t batch) const {
 double ChartReference::noiseFloor() const {
   const double n = batches();
   if (n < 2) return kInfinity;
-  // A batch differs from the mean of the others by its own noise and theirs, sqrt(n + n / (n - 1)) times that of the
-  // mean of all.
+  // A batch differs from the mean of the others by its own noise and theirs, which is sqrt(n + n / (n - 1)) times the
+  // noise of the mean of all.
   double sum = 0;
   for (size_t b = 0; b < batches_.size(); ++b) sum += meanErrors(batches_[b], meanWithout(b), mean_).relative;
   return sum / n / std::sqrt(n + n / (n - 1));

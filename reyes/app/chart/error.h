@@ -61,7 +61,8 @@ class ChartReference {
 /// Returns ", 3 pixels not finite", or nothing if all are.
 std::string notFiniteNote(const ErrorFigures& error);
 
-/// Returns the brightest that counts in a picture: all but a few pixels are darker, and it is not far above the median.
+/// Returns a picture's brightness without outliers: all but a few pixels are darker, and it is not far above the
+/// median.
 float brightness(const Image& image);
 /// Returns the largest reduction of at most `size` pixels, times a gain: squares of a whole number of pixels are
 /// averaged to one.

@@ -122,9 +122,10 @@ std::string placesProblem(const std::string& page, const std::string& folder) {
   };
   const fs::path beside = fs::path(page).parent_path();
   if (!isWritable(beside.empty() ? "." : beside))
-    return "\"" + page + "\" cannot be written: no such folder, or one that must not be written to";
+    return "\"" + page + "\" cannot be written: its folder is missing, or you may not write to it";
   fs::create_directories(folder, error);
-  return isWritable(folder) ? "" : "\"" + folder + "\" cannot hold what is measured: no folder that can be written to";
+  return isWritable(folder) ? ""
+                            : "\"" + folder + "\" cannot hold measurements: it is no folder that can be written to";
 }
 
 uint64_t contentsOf(const std::vector<std::string>& files) {

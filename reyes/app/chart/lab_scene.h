@@ -4,7 +4,7 @@
 //   ##lab title Walls thinner than a record's reach
 //   ##lab knob thickness of the wall, m: 0.4 0.2 0.1 0.05 0.02             (harmless first)
 //   ##lab truth --gi reference --bounces 1 --samples 256 --light-seed @    (several times, whose number is @)
-//   ##lab method gather, screen: --gi gather --samples 200                 (once a method)
+//   ##lab method gather, screen: --gi gather --samples 200                 (one line for each method)
 //   ##lab common --indirect-only                                           (of every run)
 //   ##lab note Walls under 2 cm leak with records farther apart than that. (optional; repeated lines are joined)
 //   ##lab limit pixel-noise: 0.05      (optional: from this value on the renderer itself warns, under this code)

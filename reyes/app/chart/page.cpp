@@ -58,7 +58,7 @@ class Page : Markup {
 
   void summary(const std::string& jsonName) {
     put("<p>Error: mean of |test &minus; reference| / (reference + {}) over all colours of all pixels that the "
-        "reference lights, less what the noise of the reference adds to it. Yellow: the "
+        "reference lights, minus what the noise of the reference adds to it. Yellow: the "
         "points that no other beats in both cost and error. Every point leads to its picture.</p>\n",
         ChartReference::kFloor);
     put("<p>The reference is the mean of {} independent pictures ({:.0f} CPU s) of <code>{}</code>; its own noise is "
@@ -72,7 +72,7 @@ class Page : Markup {
           escapeXml(fmt::format("{}", fmt::join(r_.warnings, ", "))));
     for (const ChartPoint& p : r_.points)
       if (p.error.notFinite > 0)
-        put("<p><strong>{}, {}{}</strong>: of the picture they count as black, of the reference not at all; green in "
+        put("<p><strong>{}, {}{}</strong>: in the picture they count as black, in the reference not at all; green in "
             "the error map.</p>\n",
             escapeXml(r_.curves[p.curve]), escapeXml(p.setting), notFiniteNote(p.error));
     if (r_.missing.empty()) return;
@@ -108,8 +108,8 @@ class Page : Markup {
     return seconds.has_value();
   }
 
-  /// Shows the differences of methods. The interval of the difference tells whether a method is worse: the noise of the
-  /// reference, which all share, makes the interval of each method wider than that.
+  /// Shows the differences of methods. The interval of a difference shows whether a method is worse. The interval of
+  /// each method is wider, because it includes the noise of the reference, which all methods share.
   void differences() {
     const ChartPoint* best = mostAccurate(r_, r_.curves.size());
     if (!best || r_.curves.size() < 2) return;
@@ -119,9 +119,8 @@ class Page : Markup {
         const ErrorDifference d = p->error - best->error;
         rows.push_back({r_.curves[c], c, d.mean, d.confidence});
       }
-    put("<h2>Differences</h2><p>How much more the most accurate picture of each method is off than that of {} ({}), "
-        "with "
-        "95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n{}",
+    put("<h2>Differences</h2><p>By how much the error of each method's most accurate picture exceeds that of {} ({}), "
+        "with 95 % intervals. Methods whose intervals hold 0 cannot be told from it by this reference.</p>\n{}",
         key(best->curve), escapeXml(best->setting), drawDifferences("Differences of errors", rows));
   }
 

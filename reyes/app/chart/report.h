@@ -38,12 +38,12 @@ void markBest(ChartReport& report);
 /// nothing if it does not.
 std::optional<double> secondsToReach(const ChartReport& report, size_t curve, double error);
 
-/// Returns the point of a curve that is off least; null if it has none. An index past all curves means the least of all
-/// points.
+/// Returns the point of a curve with the least error; null if it has none. With an index past all curves it looks among
+/// all points.
 const ChartPoint* mostAccurate(const ChartReport& report, size_t curve);
 
-/// Tells whether all its points have the same error. Its settings then change the cost alone, if they affect this scene
-/// at all.
+/// Tells whether all points of the curve have the same error. Its settings then change only the cost, if they affect
+/// this scene at all.
 bool isFlat(const ChartReport& report, size_t curve);
 
 // Both return false if the file could not be written.

@@ -22,9 +22,8 @@ class StabilityPage : Markup {
   std::string write(const std::vector<StabilityCurve>& curves, const std::string& commandLine,
                     const std::string& json) {
     openPage("Stability", "Where methods fail", kOwnStyle);
-    put("<p>Each scene has a knob that drives methods from harmless to fatal. Error: mean of |test &minus; truth| / "
-        "(truth + {}) over all colours of all "
-        "pixels that the truth lights.</p>\n",
+    put("<p>Each scene has a knob that makes it harder for the methods, until they fail. Error: mean of |test &minus; "
+        "truth| / (truth + {}) over all colours of all pixels that the truth lights.</p>\n",
         ChartReference::kFloor);
     put("<p>Figures: <a href=\"{0}\">{0}</a>. Made with tomales {1}: <code>{2}</code></p>\n<ul>\n", escapeXml(json),
         kVersion, escapeXml(commandLine));
@@ -46,7 +45,7 @@ class StabilityPage : Markup {
     for (const std::string& m : c.missing) put("<p><strong>Not measured:</strong> {}</p>\n", escapeXml(m));
     for (const StabilityPoint& p : c.points)
       if (p.error.notFinite > 0)
-        put("<p><strong>{}, {} {}{}</strong>: of the picture they count as black, of the truth not at all; green in "
+        put("<p><strong>{}, {} {}{}</strong>: in the picture they count as black, in the truth not at all; green in "
             "the error map.</p>\n",
             escapeXml(c.scene.methods[p.method].name), escapeXml(c.scene.knob), p.knob, notFiniteNote(p.error));
     Plot plot{c.scene.title, c.scene.knob, "mean relative error", {}, c.noiseFloor};
@@ -90,7 +89,7 @@ class StabilityPage : Markup {
     return nullptr;
   }
 
-  /// Shows the truths, and under them, method by method, where pictures are wrong.
+  /// Shows the truths and, below them, error maps method by method.
   void pictures(const StabilityCurve& c, size_t scene) {
     put("<div class=\"strip\" style=\"grid-template-columns:8em repeat({},96px)\"><span>truth</span>",
         c.scene.values.size());

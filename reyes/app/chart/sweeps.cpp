@@ -10,7 +10,8 @@ using Arguments = std::vector<std::string>;
 const Arguments kGather{"--gi", "gather"}, kAtlas{"--gi", "atlas"}, kTraced{"--gi", "reference"};
 constexpr const char* kAtlasName = "atlas";
 
-/// Rays of a record and the allowed error of its use: neither alone brings the error down for long.
+/// Rays of a record and the allowed error of its use. Both vary, because changing only one soon stops reducing the
+/// error.
 struct GatherStep {
   const char *samples, *maxError, *photons;
 };
@@ -22,7 +23,7 @@ constexpr GatherStep kGatherSteps[] = {{"32", "4", "30000"},
 
 void add(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// `coarser` multiplies the error allowed.
+/// `coarser` multiplies the allowed error.
 ChartCurve gatherCurve(const std::string& name, const Arguments& method, double coarser = 1) {
   ChartCurve out{name, {}};
   for (const GatherStep& s : kGatherSteps) {
@@ -33,7 +34,7 @@ ChartCurve gatherCurve(const std::string& name, const Arguments& method, double 
   return out;
 }
 
-/// Paths bring what photons do not, so both grow.
+/// Paths carry light that photons do not, so the numbers of both grow.
 ChartCurve tracedCurve() {
   constexpr const char *kPaths[] = {"4", "16", "64", "128", "256"},
                        *kPhotons[] = {"30000", "100000", "300000", "1000000", "3000000"};
@@ -61,8 +62,8 @@ ChartCurve varied(const std::string& name, const Arguments& fixed, const std::st
   return out;
 }
 
-const char *kIndirect = "lamps whose light surfaces send on to each other",
-           *kDirect = "lamps, or surfaces that shine of themselves";
+const char *kIndirect = "lamps, and surfaces that reflect their light to each other",
+           *kDirect = "lamps, or surfaces that glow";
 
 const Arguments kPixelSamples{"1x1", "2x2", "3x3", "4x4", "6x6", "8x8"},
     kFilterWidths{"4", "2", "1.5", "1", "0.7", "0.5", "0.25"};
@@ -146,7 +147,7 @@ std::vector<ChartSweep> allSweeps() {
         varied("regular", {std::string(kPrelude) + "Hider \"hidden\" \"int jitter\" 0"}, "--pixel-samples",
                kPixelSamples)}},
       {"shadowsamples",
-       "samples of lights that have an extent",
+       "samples of area lights and skies",
        kDirect,
        {"--gi", "none"},
        {"--light-samples", "256"},
@@ -180,7 +181,7 @@ std::vector<ChartSweep> allSweeps() {
        {varied("hit list", {}, tessellation, kTessellations),
         varied("bias alone", {"--no-hit-list"}, tessellation, kTessellations)}},
       {"offset",
-       "how far what rays meet may be from what the eye sees, in units of the scene",
+       "distance that may lie between what rays meet and what the eye sees, in units of the scene",
        kIndirect,
        {"--gi", "gather", "--indirect-only"},
        {fmt::format(fmt::runtime(tessellation), 16)},

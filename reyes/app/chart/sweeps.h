@@ -13,7 +13,7 @@ struct ChartCurve {
 
 struct ChartSweep {
   std::string name, title;
-  /// The thing that the scene must have; else all pictures would be black.
+  /// Names what the scene must have, because all pictures would be black without it.
   std::string needs;
   std::vector<std::string> common;               ///< Arguments of every run, those of the reference too.
   std::vector<std::string> reference;            ///< Arguments of a batch; batches differ in `seed`.

@@ -98,7 +98,7 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   findSkyPortals(scene, camera, shading, rays, log);
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
-  atlas.photons.direct = true;  // so that the maps, which somebody may look into, have all light
+  atlas.photons.direct = true;  // so that the maps, which may be viewed, have all light
   const PhotonFigures figures =
       writePhotons(settings.picture.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas,
                    meter.pass("tracing photons", 0, 1), stats, log);

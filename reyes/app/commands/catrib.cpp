@@ -13,7 +13,7 @@
 namespace tomales {
 namespace {
 
-/// Returns false if not all of it could be written, as `error` says.
+/// Returns false if not everything could be written, and `error` says why.
 bool copyTo(std::FILE* out, const CatribSettings& settings, std::string& error, Log& log) {
   const auto write = [&](std::string_view text) {
     if (error.empty() && std::fwrite(text.data(), 1, text.size(), out) != text.size()) error = std::strerror(errno);

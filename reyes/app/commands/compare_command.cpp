@@ -24,7 +24,7 @@ std::optional<Image> load(const std::string& path, Log& log) {
   return image;
 }
 
-/// The figures are those of colours: a map of depth has none.
+/// Tells whether there are colours to compare: a map of depth has none.
 bool hasColors(const Image& image) {
   return std::any_of(image.channels.begin(), image.channels.end(),
                      [](const std::string& name) { return name != "A" && name != "Z"; });

@@ -25,7 +25,7 @@ void compile(const std::string& path, const RslSettings& settings, const Compile
   else if (file->missing() > 0)
     log.report(
         Severity::Missing, "compile", {},
-        fmt::format("{}: {} functions that it calls are nowhere; it runs with substitutes", path, file->missing()));
+        fmt::format("{}: {} functions that it calls were not found; it runs with substitutes", path, file->missing()));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::vector<std::string> namesOf(const CLI::Option& option) {
   return out;
 }
 
-/// Returns the words that an option takes, which its type names as "y|z"; none if it names anything else.
+/// Returns the words that an option takes, from a type of the form "y|z"; none if the type has another form.
 std::vector<std::string> choicesOf(const CLI::Option& option) {
   std::string type = option.get_type_name();
   type.resize(std::min(type.find(':'), type.size()));  // CLI11 adds what its own checks say
@@ -32,7 +32,7 @@ std::vector<std::string> choicesOf(const CLI::Option& option) {
   return out;
 }
 
-/// Adds a case of the script for each option of the command that takes one of few words, and one for all its options.
+/// Adds a case to the script for each option of the command that takes one of a few words, and one for all its options.
 void addCommand(const CLI::App& command, std::string& choices, std::string& options) {
   std::vector<std::string> all;
   for (const CLI::Option* o : command.get_options()) {

@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// Returns a script for bash that completes commands, options, and values where an option takes one of few words. Zsh
-/// reads it too, after `autoload -U bashcompinit && bashcompinit`.
+/// Returns a script for bash that completes commands, options, and the values of options that take one of a few words.
+/// Zsh reads it too, after `autoload -U bashcompinit && bashcompinit`.
 std::string completionScript(const CLI::App& program);
 
 }  // namespace tomales

@@ -7,12 +7,12 @@
 
 namespace tomales {
 
-/// Tells whether the file, by the ending of its name or as a picture by its first bytes, is of a kind that holds no
-/// RIB. If so, it is reported, with its kind and what can be done with it.
+/// Tells whether the file is of a kind that holds no RIB, by its extension or, for a picture, by its first bytes. If
+/// so, this is reported, with the kind and with what can be done with the file.
 bool isForeign(const std::string& file, Log& log);
 bool isAnyForeign(const std::vector<std::string>& files, Log& log);
 
-/// Tells whether the file is a picture, by the ending of its name or by its first bytes.
+/// Tells whether the file is a picture, by its extension or by its first bytes.
 bool isPicture(const std::string& file);
 
 }  // namespace tomales

@@ -34,7 +34,7 @@ class GuardedArray {
   float* data() { return memory_.data() + begin_; }
   const std::string& name() const { return name_; }
 
-  /// Tells whether anything but the active points has changed.
+  /// Tells whether anything except the active points has changed.
   bool wroteOutside() const {
     for (size_t k = 0; k < memory_.size(); ++k)
       if ((k < begin_ || k >= begin_ + padded_) && isWritten(k)) return true;
@@ -93,7 +93,7 @@ class GuardedBatch {
       if (!a.isFinite(active_)) noteFault("leaves NaN or infinity in " + a.name());
     }
     if (watched.real->kind == TM_SURFACE && (watched.real->capabilities & TM_KEEPS_OPACITY) && !keepsOpacity())
-      noteFault("has another Oi than Os, and has declared TM_KEEPS_OPACITY");
+      noteFault("writes another Oi than Os, but has declared TM_KEEPS_OPACITY");
   }
 
   TmGrid grid;

@@ -8,11 +8,12 @@
 
 namespace tomales {
 
-/// Returns a library with the shader under its own name, and replaces that of an earlier call. Each run is done twice:
-/// on a batch with guarded arrays and some inactive points, where faults are noted, and then as it is asked for.
+/// Returns a library that has the shader under its own name, and replaces the library of an earlier call. Each batch is
+/// shaded twice: first a copy with guarded arrays and some inactive points, where faults are noted, and then the batch
+/// itself.
 const TmShaderLibrary* guardedLibrary(const TmShader& shader);
 
-/// Returns the faults of the shader of the last guardedLibrary(), each in words that follow its name.
+/// Returns the faults of the shader of the last guardedLibrary(). Each completes a sentence that begins with its name.
 const std::set<std::string>& guardedFaults();
 void noteFault(const std::string& fault);
 

@@ -92,7 +92,7 @@ const Group& groupOf(const CLI::Option& option) {
   return kRest;
 }
 
-/// Wraps the text to lines that end before `width`, and indents all but the first.
+/// Wraps the text into lines shorter than `width`, and indents all but the first.
 std::string wrapped(const std::string& text, size_t indent, size_t width) {
   std::istringstream words(text);
   std::string out;

@@ -4,7 +4,7 @@
 
 namespace tomales {
 
-/// Puts --help and --help-all into this form, for the commands that are added afterwards too.
+/// Gives --help and --help-all this layout, also for commands that are added afterwards.
 void setHelp(CLI::App& program);
 /// Sorts the options of all commands into their groups, and adds the examples. Call it after all commands are added.
 void finishHelp(CLI::App& program);

@@ -36,7 +36,7 @@ rlim_t limitOfChild_s(const model::Settings& settings) {
   return std::min(now.rlim_cur, static_cast<rlim_t>(model::mostSeconds(settings)));
 }
 
-/// Runs the program that reads models. It reports itself what it leaves out; the worst severity of that is returned.
+/// Runs the program that reads models, which reports what it leaves out. Returns the worst severity of these reports.
 Severity read(const model::Settings& settings, Log& log) {
   const SourceLoc where{std::make_shared<const std::string>(settings.model), 0};
   const auto fail = [&](const std::string& what) {

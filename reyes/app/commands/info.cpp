@@ -179,7 +179,7 @@ Json bricksInfo(const std::string& file) {
           {"bytes", map.fileBytes()}};
 }
 
-/// Describes files of our own formats, whose readers say themselves what is wrong with them.
+/// Describes files of our own formats, whose readers report errors themselves.
 Json ownInfo(const std::string& file, Json (*infoOfKind)(const std::string&), Log& log) {
   try {
     return infoOfKind(file);

@@ -75,7 +75,7 @@ TextureRecipe recipeOf(const Request& r, Log& log) {
   return recipe;
 }
 
-/// PRMan's arguments are those of its brickmake.
+/// Translates the arguments, which are those of PRMan's brickmake.
 BrickmakeCommand brickmakeOf(const Request& r, Log& log) {
   static constexpr std::string_view kKnown[] = {"maxerror", "maxdepth", "radiusscale", "ignorenormals"};
   warnAboutParams(r, kKnown, log);

@@ -22,8 +22,8 @@ void addConventions(CLI::App& app, RenderSettings& s) {
       ->type_name("radiance|bmrt");
   app.add_option_function<std::string>(
          "--standard-shaders", [&s](const std::string& t) { s.input.standardFromFiles = t == "files"; },
-         "Shaders of RISpec's names, such as plastic, are built-in, or files of these names where there are such "
-         "(default: files that have parameters which the built-in shader lacks)")
+         "Which shaders have the names of RISpec, such as plastic: the built-in ones, or files of these names if there "
+         "are any (default: files that have parameters which the built-in shader lacks)")
       ->check(CLI::IsMember({"built-in", "files"}))
       ->type_name("built-in|files");
 }
@@ -58,9 +58,8 @@ std::optional<std::string> parseOutput(const std::string& text) {
 void addOutput(CLI::App& app, PictureSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, pictureNames(),
             "Write here instead of to the first Display, other pictures beside it; # stands for the frame number. "
-            "PNG: rgb, "
-            "in sRGB unless the scene's Exposure has a gamma (all else is linear, a Display's own PNG too). A scene "
-            "without Display writes ri.exr");
+            "PNG: rgb, in sRGB unless the scene's Exposure has a gamma (everything else is linear, also a PNG of a "
+            "Display). A scene without Display writes ri.exr");
   app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
       ->needs("-o");
 }
@@ -97,12 +96,12 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   addFrameSize(app, s);
   addCrop(app, s.picture);
   app.add_flag("--draft", s.picture.draft,
-               "Coarse and fast, to place lights by: 50 gather rays, no displacement, micropolygons of 16 times the "
+               "Coarse and fast, for placing lights: 50 gather rays, no displacement, micropolygons of 16 times the "
                "area, 2x2 samples");
   addParsed(app, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
   addFramesApart(app, s.input);
   addParsed(app, "--makes", s.input.makes, parseFrames, "0-3,5",
-            "Only these of the Make requests, such as MakeTexture, counted from 0; none is a list too (default: all)");
+            "Only these Make requests, such as MakeTexture, counted from 0; \"none\" runs none (default: all)");
 }
 
 void addFramesApart(CLI::App& app, InputSettings& s) {
@@ -135,13 +134,14 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag_callback(
       "-q", [&s] { s.report.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(
-      "-v", [&s] { s.report.verbosity = Log::Verbosity::Verbose; }, "Say more, also what each frame wrote and took");
+      "-v", [&s] { s.report.verbosity = Log::Verbosity::Verbose; },
+      "Print more, also which files each frame wrote and how much time and memory it took");
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {
   app.add_flag("--audit{300}", s.quality.audit,
-               "Say how far the picture is off: light is found again by many rays in 300 of its pixels, or in N of "
-               "them (--audit=N)")
+               "Measure the error of the picture: the light of 300 of its pixels, or of N (--audit=N), is computed "
+               "again with many rays")
       ->check(CLI::Range(20, 1'000'000));
   app.add_flag("--preview{127.0.0.1:14158}", s.report.preview,
                "Show rows as they are made, in a tev viewer that listens there (--preview=HOST:PORT)");

@@ -36,7 +36,7 @@ class PilotRun {
       return std::nullopt;
     read([this](Scene&& scene) { take(scene); }, true);
     if (stopRequested()) return std::nullopt;
-    // A file that says that nothing was chosen keeps others from trying again.
+    // A file that records that nothing was chosen keeps other runs from trying again.
     if (held_.worlds.empty()) return settings_.quality.animationSettings.empty() ? std::nullopt : std::optional(held_);
     std::vector<std::string> chosen;
     for (const LightQuality& q : held_.worlds) chosen.push_back(optionsOf(q));
@@ -52,9 +52,9 @@ class PilotRun {
     rib.trust = settings_.input.trust;
     if (!settings_.picture.outputRoot.empty()) rib.archivePath.push_back(settings_.picture.outputRoot);
     rib.onScene = onScene;
-    // A pilot reads what Make requests before it have made.
+    // A pilot may read files that earlier Make requests have made.
     if (makes) rib.onMake = [this](const Request& request) { make(request); };
-    Log quiet(Log::Verbosity::Quiet);  // what is wrong with the scene is said when it is rendered
+    Log quiet(Log::Verbosity::Quiet);  // faults of the scene are reported when it is rendered
     readRib(settings_.input.files, rib, quiet);
   }
 
@@ -84,7 +84,7 @@ class PilotRun {
     settings.stored.bakedFolder.clear();
     settings.report.pixels.clear();
     applyOverrides(scene, settings);
-    Log quiet(Log::Verbosity::Quiet);  // the frame says it when it is rendered
+    Log quiet(Log::Verbosity::Quiet);  // it is reported when the frame is rendered
     nameOutputs(scene.options, settings, quiet);
     const auto shaders = frameShaders(settings, quiet);
     Stats stats;

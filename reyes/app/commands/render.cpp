@@ -46,7 +46,7 @@ class RenderRun {
   using Job = std::function<void(Scene&, ShaderRegistry&, int world, const RenderSettings&, Stats&, Log&,
                                  const std::function<void()>& afterStage)>;
 
-  /// `seen`: the job makes what is seen of a frame, so that nothing seen is worth a message.
+  /// `seen`: the job makes what is visible of a frame, so a frame in which nothing is visible is reported.
   RenderRun(const RenderSettings& settings, Job job, bool seen = true)
       : log_(settings.report.verbosity),
         report_(settings, log_),
@@ -85,7 +85,7 @@ class RenderRun {
                   "none of the frames that --frames names is in the scene");
     if (rendered_ > 0 && namesPicture(settings_.picture.output) && !outputUsed_)
       log_.report(Severity::Output, "output-unused", {std::make_shared<std::string>(settings_.picture.output), 0},
-                  "not written: -o takes the place of a picture, and the Displays of the scene are all maps");
+                  "not written: -o replaces a picture, and the Displays of the scene are all maps");
     report_.finish();
     if (const int code = interruptExitCode()) return code;
     const ExitCode code = exitCodeOf(log_, settings_.report.strict);
@@ -93,7 +93,7 @@ class RenderRun {
   }
 
  private:
-  /// Reads the frames. After one that is interrupted it reads no further.
+  /// Reads the frames. It stops after an interrupted one.
   bool readAll(const RibSettings& rib) {
     if (isAnyForeign(settings_.input.files, log_)) return false;
     try {
@@ -125,7 +125,7 @@ class RenderRun {
       try {
         const RenderSettings settings = held(scene);
         job_(scene, *shaders, scenes_ - 1, settings, stats, log_, [this] { report_.flush(); });
-      } catch (const std::exception& e) {  // later frames may be smaller, and finished ones keep their statistics
+      } catch (const std::exception& e) {  // later frames may fit, and finished ones keep their statistics
         log_.report(severityOf(e), "frame-failed", scene.where, messageOf(e) + "; the frame was not finished");
       }
       if (seen_ && stats.geometry.micropolygonsVisible == seenBefore && !settings_.picture.resume && !stopRequested() &&

@@ -17,7 +17,8 @@ class SceneNeeds {
   void addMade(const Request& request);
   /// Adds shaders of the scene and the pictures that their parameters name. Procedurals are opened one after the other.
   void add(const Scene& scene);
-  /// Returns an array of kind, name, found, and path; for what is missing, the place that names it and a hint.
+  /// Returns an array of objects with kind, name, found, and path; a missing one has the place that names it and a
+  /// hint.
   Json json() const;
 
  private:
@@ -32,7 +33,7 @@ class SceneNeeds {
   void addPictures(const ShaderCall& call, const TmShader* shader, const Options& options);
   void addPicture(const std::string& name, const Options& options, const SourceLoc& where);
 
-  static constexpr int kMostProcedurals = 10000;  ///< The most that are opened: a scene may have millions.
+  static constexpr int kMostProcedurals = 10000;  ///< Further ones stay closed: a scene may have millions.
   ShaderRegistry registry_;
   std::map<std::pair<std::string, std::string>, Need> needs_;  ///< Indexed by kind and name.
   std::set<std::string> made_;                                 ///< Files that the scene itself writes.

@@ -17,7 +17,7 @@
 namespace tomales {
 namespace {
 
-constexpr std::array<int, 2> kGrid{13, 7};  // so that the last lanes of arrays are no points
+constexpr std::array<int, 2> kGrid{13, 7};  // so that the last lanes of arrays are padding
 constexpr int kMostSeconds = 60;            // for a shader that does not end
 
 bool isBuiltIn(const TmShader& shader) {
@@ -39,7 +39,7 @@ class Check {
     std::vector<std::string> out;
     for (size_t begin = 0, end; (end = lines->find('\n', begin)) != std::string::npos; begin = end + 1)
       out.push_back(lines->substr(begin, end - begin));
-    if (shader_.unlist && !isBuiltIn(shader_))  // the lights of the scene would add parameters of the same library
+    if (shader_.unlist && !isBuiltIn(shader_))  // lights of the scene would add parameters of the same library
       addUnlisted(out);
     return out;
   }
@@ -87,7 +87,7 @@ class Check {
     dark.illumination = Illumination::None;
     run(dark);
     for (int i = 0; i < kPoints; ++i)
-      if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, and has not declared TM_EMITS");
+      if (out_.color(i) != vec3(0)) return noteFault("adds light where there is none, but has not declared TM_EMITS");
   }
 
   void checkEvenness() const {

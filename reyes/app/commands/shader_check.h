@@ -7,9 +7,9 @@
 
 namespace tomales {
 
-/// Returns the faults of a shader that show on a grid: what it does otherwise than it declares, or than
-/// reyes/shader_api.h asks. Each is the rest of a sentence that begins with the shader. The shader runs in a child
-/// process, since it may crash. Threads: one check at a time.
+/// Returns the faults of a shader that show on a grid: where it does not do what it declares or what reyes/shader_api.h
+/// asks. Each fault completes a sentence that begins with the shader's name. The shader runs in a child process, since
+/// it may crash. Threads: one check at a time.
 std::vector<std::string> faultsOf(const TmShader& shader);
 
 }  // namespace tomales

@@ -11,7 +11,8 @@ using Json = nlohmann::ordered_json;
 
 /// Returns name, kind, documentation and parameters.
 Json shaderInfo(const TmShader& shader);
-/// Describe the shaders of a file, a text in the shading language or a plugin. Null, and reported, if it is unreadable.
+/// Describe the shaders of a file: a text in the shading language, or a plugin. Return null if it is unreadable, which
+/// is reported.
 Json textInfo(const std::string& path, Log& log);
 Json pluginInfo(const std::string& path, Log& log);
 /// Describes a shader in NAME.sl, NAME.so or built in. Returns null if there is none, which is reported.

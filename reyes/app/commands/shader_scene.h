@@ -17,7 +17,7 @@ std::string shaderSceneRib(const TmShader& shader, const std::string& parameters
 ShadePoints shaderScenePoints(const Scene& scene, const ShadingSystem& shading, const std::array<int, 2>& size);
 
 /// Provides rays that meet nothing, and a lamp for shaders that are sampled on one. Returns null for a shader that
-/// declares neither: if it asks for rays all the same, it is told to declare so.
+/// declares neither; one that asks for rays all the same then gets a message that it must declare them.
 std::unique_ptr<ShadeServices> emptySpaceFor(const TmShader& shader);
 
 }  // namespace tomales

@@ -70,7 +70,7 @@ int numbersIn(const std::string& text) {
   return in.eof() ? out : -1;
 }
 
-/// Writes the parameters of the command line as a request has them.
+/// Returns the parameters of the command line in the form of a request.
 std::string writtenParameters(const ShadetestCommand& command, const TmShader& shader, Log& log) {
   std::string out;
   for (const std::string& given : command.parameters) {
@@ -104,8 +104,8 @@ struct Trial {
   std::function<void()> prepare, call;
 };
 
-/// Returns nanoseconds of one call, the mean of as many as a fifth of a second holds. Shaders print in a first call
-/// alone, which does not count.
+/// Returns the mean nanoseconds of a call, over the calls that fit into a fifth of a second. Shaders print only in a
+/// first call, which does not count.
 double timeOf(ShadingSystem& shading, const Trial& trial) {
   trial.prepare();
   trial.call();
@@ -139,7 +139,7 @@ void testDisplacement(const Scene& scene, ShadingSystem& shading, const std::arr
           .c_str());
 }
 
-/// Times a trial, and describes the picture that it has left, three colours first.
+/// Times a trial, and describes the resulting picture, whose first three channels are colours.
 void testColors(const ShadetestCommand& command, ShadingSystem& shading, const Trial& trial,
                 const std::function<Image()>& picture, Log& log) {
   const double time_ns = timeOf(shading, trial);
@@ -169,7 +169,7 @@ Image blankImage(const std::array<int, 2>& size, std::vector<std::string> channe
   return image;
 }
 
-/// Tests surfaces and lights by the look of the surface, and volumes by what the air leaves of it.
+/// Tests surfaces and lights by the shaded surface, and volumes by what they change about it.
 void testPoints(const ShadetestCommand& command, const Scene& scene, ShadingSystem& shading, bool volume, Log& log) {
   const ShadePoints points = shaderScenePoints(scene, shading, command.grid);
   ShadedPoints surface, out;

@@ -14,11 +14,11 @@ struct ShadetestCommand {
   bool watch = false;                   ///< Run again whenever the .sl file, or one that it includes, has changed.
   std::array<int, 2> grid{64, 64};      ///< Points along u and v.
   std::string output;                   ///< Picture of Ci; empty for none.
-  bool check = false;                   ///< Check instead whether the shader, or all of the file, do what they declare.
+  bool check = false;  ///< Check instead that the shader, or each one of the file, does what it declares.
 };
 
-/// Says how long a point takes and what the result is, or (check) what a shader does otherwise than it declares, which
-/// gives exit code 3.
+/// Prints the time for each point and the result. With `check` it prints instead where a shader does not do what it
+/// declares; such a fault gives exit code 3.
 int shadetestCommand(const ShadetestCommand& command);
 
 }  // namespace tomales

@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Tells the environment, which is asked wherever files are looked for.
+/// Puts the folders into the environment, which is read wherever files are looked for.
 void addSearchPath(CLI::App& app) {
   std::string kinds, places;
   for (const StandardPlace& p : standardPlaces()) {

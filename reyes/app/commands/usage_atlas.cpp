@@ -11,7 +11,7 @@ void buildPhotons(CLI::App& app, Invocation& in, int& code) {
   photons->add_option("-o", in.render.picture.output, "Folder to write to")->required()->type_name("FOLDER");
   photons->add_option("--photons", in.render.light.photons, "Photons to emit")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 40));
-  photons->add_option("--bounces", in.render.light.bounces, "Most surfaces that a photon may arrive at")
+  photons->add_option("--bounces", in.render.light.bounces, "Maximum number of surfaces that a photon may arrive at")
       ->check(CLI::Range(1, kMostBounces));
   photons->add_option("--seed", in.render.picture.seed, "Of all random numbers");
   addRunOptions(*photons, in.render);
@@ -26,7 +26,8 @@ void buildIrradiance(CLI::App& app, Invocation& in, int& code) {
   irradiance->add_option("-o", in.irradiance.output, "Folder to write to")->required()->type_name("FOLDER");
   irradiance->add_option("--nearest", in.irradiance.settings.nearest, "Photons of one estimate")
       ->check(CLI::Range(2, 100000));
-  irradiance->add_option("--every", in.irradiance.settings.every, "One estimate for so many photons")
+  irradiance
+      ->add_option("--every", in.irradiance.settings.every, "Number of neighbouring photons that share an estimate")
       ->check(CLI::Range(1, 100000));
   irradiance->callback([&] { code = irradianceCommand(in.irradiance); });
 }
@@ -34,11 +35,12 @@ void buildIrradiance(CLI::App& app, Invocation& in, int& code) {
 void buildBrickmake(CLI::App& app, Invocation& in, int& code) {
   CLI::App* bricks = app.add_subcommand("brickmake", "Brick maps of point clouds");
   bricks->add_option("FILES", in.brickmake.inputs, "Point clouds, or folders of them")->required();
-  bricks->add_option("-o", in.brickmake.output, "FILE.bkm for all, or a folder for one each")->required();
-  bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation that needs no finer bricks")
+  bricks->add_option("-o", in.brickmake.output, "FILE.bkm for one map of all clouds, or a folder for a map of each")
+      ->required();
+  bricks->add_option("--maxerror", in.brickmake.settings.maxError, "Variation up to which no finer bricks are made")
       ->check(between(0.0, 1e9));
   bricks->add_flag("--relative", in.brickmake.relative, "maxerror is a share of the mean of the data");
-  bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Most levels below the first")
+  bricks->add_option("--maxdepth", in.brickmake.settings.maxDepth, "Maximum number of levels below the first")
       ->check(CLI::Range(0, 20));
   bricks->add_option("--radiusscale", in.brickmake.settings.radiusScale, "Scale of the points' radii")
       ->check(between(1e-3, 1e3));
@@ -59,7 +61,7 @@ void buildView(CLI::App& app, Invocation& in, int& code) {
   view->add_option("--channel", in.view.channel, "Channel to show; also normal, radius (default: the first)");
   view->add_option("--level", in.view.level, "Level of a brick map, 0 the coarsest (default: the finest)");
   view->add_option("--camera", in.view.camera, "Look with the camera of this RIB file")->type_name("SCENE.rib");
-  view->add_option("--gain", in.view.gain, "Multiplies the values (default: so that they can be seen)")
+  view->add_option("--gain", in.view.gain, "Multiplies the values (default: chosen so that they are visible)")
       ->check(between(0, 1e30));
   addParsed(
       *view, "--format", in.view.size, [](const std::string& t) { return parsePair(t, 1, 16384); }, "WxH",

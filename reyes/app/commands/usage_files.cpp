@@ -29,7 +29,7 @@ void buildList(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildCompare(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("compare", "How far a picture is from a reference");
+  CLI::App* c = app.add_subcommand("compare", "The error of a picture against a reference");
   c->add_option("A", in.first)->required();
   c->add_option("B", in.second, "The reference")->required();
   c->add_flag("--json", in.json, "As JSON");
@@ -38,7 +38,7 @@ void buildCompare(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildJoin(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("join", "Tiles of one frame to the file that the whole frame would have been");
+  CLI::App* c = app.add_subcommand("join", "Join tiles of one frame into the file that one run would have written");
   addParsed(*c, "-o", in.join.output, parseNamed(".exr"), "FILE.exr", "Write here")->required();
   addParsed(*c, "--crop", in.join.crop, parseCrop, "XMIN,XMAX,YMIN,YMAX",
             "The window of the frame that the tiles make (default: all of it)");
@@ -95,7 +95,8 @@ void buildShadetest(CLI::App& app, Invocation& in, int& code) {
 }
 
 void buildCatrib(CLI::App& app, Invocation& in, int& code) {
-  CLI::App* c = app.add_subcommand("catrib", "Write RIB files as one, requests as they are, in another encoding");
+  CLI::App* c =
+      app.add_subcommand("catrib", "Write RIB files as one file in another encoding; requests stay as they are");
   c->add_option("IN", in.catrib.files, "RIB files of any encoding; - is standard input")->required();
   c->add_option("-o", in.catrib.output, "Write here instead of to standard output")->type_name("FILE.rib");
   c->add_flag("--binary", in.catrib.binary, "Binary RIB instead of ASCII");
@@ -110,7 +111,7 @@ void buildImport(CLI::App& app, Invocation& in, int& code) {
       "lights (docs/import.md)");
   c->add_option("MODEL", in.import.model, "The file of the model")->required();
   addParsed(*c, "-o", in.import.scene, parseNamed(".rib"), "SCENE.rib",
-            "Write here, and what it names into the folder SCENE_parts beside it")
+            "Write here, and the files that it names into the folder SCENE_parts beside it")
       ->required();
   c->add_flag("--subdivide", in.import.subdivide, "Polygons are the cages of subdivision surfaces");
   c->add_option("--smooth", in.import.smooth_degrees,
@@ -122,8 +123,9 @@ void buildImport(CLI::App& app, Invocation& in, int& code) {
       ->type_name("y|z");
   c->add_option("--camera", in.import.camera, "Look through this camera of the model (default: the first)")
       ->type_name("NAME");
-  c->add_option("--light-scale", in.import.lightScale,
-                "Multiplies the lights of the model (default: so that they neither drown nor flood the picture)")
+  c->add_option(
+       "--light-scale", in.import.lightScale,
+       "Multiplies the lights of the model (default: chosen so that the picture is neither too dark nor too bright)")
       ->check(between(1e-12, 1e12));
   c->callback([&] { code = importCommand(in.import); });
 }

@@ -26,7 +26,7 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
   addRunOptions(*c, in.render);
   addWatching(*c, in.render);
   c->add_flag("--resume", in.render.picture.resume,
-              "Keep finished work beside the picture until it is written, and use that of a run before");
+              "Keep finished work beside the picture until it is written, and use that of an earlier run");
   c->add_flag("--skip-finished", in.render.picture.skipFinished,
               "Leave out frames whose pictures hold what would be rendered, by their OpenEXR headers");
   c->add_option("--irradiance", in.render.stored.irradiance,
@@ -84,7 +84,7 @@ void buildPrepare(CLI::App& app, Invocation& in, int& code) {
       ->check(CLI::IsMember({"photons", "join", "maps"}))
       ->type_name("photons|join|maps");
   addParsed(*c, "--part", in.prepare.part, parsePart, "3/8",
-            "The part of the pass, for several processes; of join the number of all")
+            "The part of the pass, if several processes share it; for join, how many parts there are")
       ->needs("--pass");
   c->add_option("SCENE", in.render.input.files, "RIB files")->required();
   c->callback([&] { code = prepareCommand(in.render, in.prepare); });
@@ -112,7 +112,8 @@ void buildGather(CLI::App& app, Invocation& in, int& code) {
       "Store irradiance records alone, and not what rays of shaders and lights find: shade traces these itself, with "
       "the same bits");
   c->add_flag("--by-light", in.render.stored.byLight,
-              "Keep what each light brings, so that shade and relight dim and colour lights with all that they bounce");
+              "Keep what each light brings, so that shade and relight can dim and colour a light together with its "
+              "bounced light");
   addCrop(*c, in.render.picture);
   addLightOptions(*c, in.render);
   addRunOptions(*c, in.render);
@@ -159,7 +160,7 @@ void buildRelight(CLI::App& app, Invocation& in, int& code) {
   c->callback([&] { code = relightFirst(in.relight); });
 }
 
-/// Returns the words that the user gave for some options, as they would be written again.
+/// Returns some options as the user wrote them, so that they can be written again.
 std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   std::vector<std::string> out;
   for (const CLI::Option* o : options) {
@@ -173,7 +174,7 @@ std::vector<std::string> givenOf(const std::vector<CLI::Option*>& options) {
   return out;
 }
 
-/// Returns the options that `add` gives to the command.
+/// Returns the options that `add` adds to the command.
 template <class Add>
 std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
   const auto before = app.get_options();
@@ -188,7 +189,7 @@ std::vector<CLI::Option*> added(CLI::App& app, const Add& add) {
 void addTasks(CLI::App& c, BatchCommand& b) {
   RenderSettings& s = b.plan.render;
   addParsed(c, "-o", s.picture.output, parseOutput, pictureNames(),
-            "As of render; # stands for the number of the frame");
+            "As for render; # stands for the number of the frame");
   addParsed(c, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
   addParsed(
       c, "--tiles", b.plan.tiles, [](const std::string& t) { return parsePair(t, 1, 64); }, "NxM",
@@ -200,7 +201,7 @@ void addTasks(CLI::App& c, BatchCommand& b) {
       ->check(CLI::Range(1, 100000))
       ->needs("-o");
   c.add_option("--photon-parts", b.plan.photonParts,
-               "Trace the photons of --gi atlas, and make its maps, in so many tasks (default: one for each million)")
+               "Tasks that trace the photons of --gi atlas and make its maps (default: one for each million photons)")
       ->check(CLI::Range(1, kMostParts));
   c.add_option("--plan", b.folder, "Folder of the plan, its states and logs (default: SCENE.batch)")
       ->type_name("FOLDER");
@@ -214,11 +215,11 @@ void addEngine(CLI::App& c, BatchCommand& b) {
        "Where tasks run: local (here, the default) or slurm")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->type_name("local|slurm");
-  c.add_option("-j", b.processes, "Most tasks at a time (default: one on each processor; slurm: no limit)")
+  c.add_option("-j", b.processes, "Maximum number of tasks at a time (default: one on each processor; slurm: no limit)")
       ->check(CLI::Range(1, 100000));
   c.add_option("-t", b.slurm.cpus, "Threads of each task (default 1)")->check(CLI::Range(1, 4096));
   c.add_option("--partition", b.slurm.partition, "Partition of Slurm (default: the cluster's)");
-  c.add_option("--time", b.slurm.time, "Most time of a task, as sbatch takes it (default: the partition's)");
+  c.add_option("--time", b.slurm.time, "Time limit of a task, as sbatch takes it (default: the partition's)");
   c.add_option("--mem", b.slurm.memory, "Memory of a task, as sbatch takes it (default: the partition's)");
 }
 
@@ -273,9 +274,9 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
   addParsed(
       *c, "--format", s.format, [](const std::string& t) { return parsePair(t, 1, 65536); }, "WxH",
       "Resolution in pixels");
-  c->add_option("--batches", s.batches, "Most independent pictures that make the reference")
+  c->add_option("--batches", s.batches, "Maximum number of independent pictures that make the reference")
       ->check(CLI::Range(2, 10000));
-  c->add_option("--bounces", s.bounces, "Most diffuse bounces")->check(CLI::Range(1, kMostBounces));
+  c->add_option("--bounces", s.bounces, "Maximum number of diffuse bounces")->check(CLI::Range(1, kMostBounces));
   c->add_option("-t", s.threads, "Threads of each rendering (default: all)")->check(CLI::Range(1, 4096));
   addTrust(*c, s.trust);
   c->add_option("--cache", s.folder, "Keep what has been measured here (default: the user's cache)")
@@ -288,7 +289,7 @@ void buildChart(CLI::App& app, Invocation& in, int& code) {
     }
     for (const std::string& file : in.chart.files)
       if (const std::string problem = inputProblem(file); !problem.empty())
-        throw CLI::ValidationError("SCENE", "\"" + file + "\" cannot be read again and again: " + problem +
+        throw CLI::ValidationError("SCENE", "\"" + file + "\" cannot be read more than once: " + problem +
                                                 " (only --stability takes folders)");
     code = chartCommand(in.chart);
   });

@@ -15,11 +15,11 @@
 namespace tomales {
 namespace {
 
-/// The header that says what was done, and the error that is left.
+/// The header attribute that states that a picture was denoised, and the remaining error.
 constexpr const char* kDenoised = "tomales:denoised";
 constexpr std::array<const char*, 3> kColor{"R", "G", "B"};
 
-/// A guide by the names of its channels, of which the first set that is there counts.
+/// A guide, and the names that its channels may have. The first set of channels that exists is used.
 struct Guide {
   const char* display;  ///< The name for a Display that makes it.
   std::vector<std::vector<std::string>> names;
@@ -77,7 +77,7 @@ Image readHalf(const std::string& file) {
 void refuseStrangers(const Image& a, const Image& b, const DenoiseCommand& command) {
   const auto refuse = [&](const std::string& why) {
     throw FileError(
-        fmt::format("\"{}\" and \"{}\" are no two pictures of one frame: {}", command.first, command.second, why));
+        fmt::format("\"{}\" and \"{}\" are not two pictures of one frame: {}", command.first, command.second, why));
   };
   if (a.width != b.width || a.height != b.height || a.originX != b.originX || a.originY != b.originY)
     refuse(

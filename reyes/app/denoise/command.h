@@ -1,4 +1,4 @@
-// `tomales denoise`: one picture without noise of two that differ in it alone.
+// `tomales denoise`: makes a picture without noise from two pictures that differ in their noise alone.
 #pragma once
 #include <string>
 

@@ -13,11 +13,11 @@ using denoising::Color, denoising::Size, denoising::kBand, denoising::kNear, den
 
 constexpr std::array<float, 2> kWidths{0.5f, 1.0f};  ///< Widths of the filter: k of Rousselle et al.
 constexpr int kSmoothVariance = 2, kSmoothError = 4, kSmoothChoice = 1;
-/// A filter that is worse at a pixel than none, by so many times the variance around it, blurs something. Noise alone
-/// seems to say so once in very many pixels.
+/// A filter blurs something if its error at a pixel exceeds that of no filter by this many times the variance around
+/// it. Noise alone has that effect at very few pixels.
 constexpr float kBlurs = 4;
 
-/// Means over squares of 2 `reach` + 1 pixels, fewer at the edges.
+/// Returns means over squares of 2 `reach` + 1 pixels, fewer at the edges.
 Plane smoothed(const Plane& in, const Size& size, int reach) {
   Plane across(in.size()), out(in.size());
   const auto mean = [&](const Plane& from, int middle, int length, const auto& index) {
@@ -39,7 +39,7 @@ Plane smoothed(const Plane& in, const Size& size, int reach) {
   return out;
 }
 
-/// Returns the variance of one half, from the differences of both, which have the same.
+/// Returns the variance of one half, from the differences of both halves, whose variances are equal.
 Color varianceOf(const HalfBuffers& in, const Size& size) {
   Color out;
   for (size_t c = 0; c < 3; ++c) {
@@ -53,14 +53,14 @@ Color varianceOf(const HalfBuffers& in, const Size& size) {
   return out;
 }
 
-/// A filter's answers for both halves, and their squared errors, summed over the colours: the means of the pixels that
-/// are near, and of those around them.
+/// A filter's answers for both halves, and their squared errors, summed over the colours: means over near pixels, and
+/// over the pixels around those.
 struct Candidate {
   Color a, b;
   Plane near, around;
 };
 
-/// Means over squares of 2 kSmoothError + 1 pixels without those that are near, whose means are given.
+/// Returns means over squares of 2 kSmoothError + 1 pixels without the near ones, whose means are given.
 Plane meansAround(const Plane& in, const Plane& near, const Size& size) {
   Plane out = smoothed(in, size, kSmoothError);
   const auto area = [&](int x, int y, int reach) {
@@ -76,7 +76,8 @@ Plane meansAround(const Plane& in, const Plane& near, const Size& size) {
   return out;
 }
 
-/// The error of each half's answer is its difference from the other half, less what is the noise of that.
+/// Measures a filter. The error of each half's answer is its difference from the other half minus the noise of the
+/// other half.
 Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance, const Size& size) {
   Plane squares(size.count(), 0.0f);
   for (size_t c = 0; c < 3; ++c)
@@ -88,8 +89,8 @@ Candidate judged(Color a, Color b, const HalfBuffers& in, const Color& variance,
   return {std::move(a), std::move(b), std::move(near), std::move(around)};
 }
 
-/// Returns the number of the candidate for a pixel; 0 does not filter. The pixels around choose, so that the error at
-/// the pixel says of the chosen one what it would say of any.
+/// Returns the index of the candidate for a pixel; 0 does not filter. Only surrounding pixels decide, so that the error
+/// at the pixel is an unbiased measure of the chosen candidate.
 size_t bestAt(size_t pixel, const std::vector<Candidate>& candidates) {
   const Candidate& none = candidates[0];
   size_t best = 0;
@@ -100,7 +101,7 @@ size_t bestAt(size_t pixel, const std::vector<Candidate>& candidates) {
   return best;
 }
 
-/// Guides of about the same scale: their root mean square over the picture is 1.
+/// Scales the guides so that their root mean square over the picture is 1.
 std::vector<Plane> scaled(std::vector<Plane> guides) {
   for (Plane& g : guides) {
     double sum = 0, squares = 0;

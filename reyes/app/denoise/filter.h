@@ -2,10 +2,10 @@
 // pixel is a first-order regression over its neighbours on what is known without noise (Bitterli et al. 2016,
 // "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings"). Weights are those of non-local
 // means by the other half's colours and variance (Rousselle, Knaus and Zwicker 2012, "Adaptive Rendering with Non-Local
-// Means Filtering"). Of several widths of the filter, and none, each pixel takes the one with the least error around
-// it, which the other half tells. The colour that a half has at a pixel has no part in the weights for it, and hardly
-// any in the choice. So that half can tell the error at the pixel (Batson and Royer 2019, "Noise2Self"). Threads: pure;
-// the result has the same bits for any number of them.
+// Means Filtering"). Each pixel takes the filter width, or no filter, that has the least error around it, as measured
+// against the other half. The colour of the other half at a pixel has no part in the weights for it, and hardly any in
+// the choice, so it can measure the error there (Batson and Royer 2019, "Noise2Self"). Threads: pure; the result has
+// the same bits for any number of them.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -25,8 +25,8 @@ constexpr size_t kMostGuides = 7;
 
 struct Denoised {
   std::array<Plane, 3> color;
-  /// Root mean square errors over the mean colour, of the mean of the halves and of `color`. Both are estimated from
-  /// the halves.
+  /// Relative errors of the mean of the halves and of `color`: the root mean square over the mean colour. Both are
+  /// estimated from the halves.
   double before = 0, after = 0;
 };
 

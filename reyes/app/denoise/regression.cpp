@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kReach = 8, kPatch = 3;      ///< Pixels from the middle of the window, and of a patch.
 constexpr size_t kMost = kMostGuides + 1;  ///< Unknowns of a regression: the colour and its slopes.
-constexpr float kRidge = 1e-3f;            ///< Keeps slopes small that the neighbours say nothing about.
+constexpr float kRidge = 1e-3f;            ///< Keeps slopes small that the neighbours do not determine.
 
 /// The normal equations of one pixel, of which the upper half is kept.
 struct Equations {
@@ -100,7 +100,8 @@ class Regression {
       }
   }
 
-  /// Squared, less what noise explains, over the variance (Rousselle et al., eq. 3). Negative outside of the picture.
+  /// Returns the squared difference, minus the part that noise explains, over the variance (Rousselle et al., eq. 3);
+  /// negative outside of the picture.
   float distanceOf(int x, int y, int dx, int dy) const {
     constexpr float kTiny = 1e-10f;
     if (x + dx < 0 || y + dy < 0 || x + dx >= size_.width || y + dy >= size_.height) return -1;
@@ -122,8 +123,8 @@ class Regression {
       }
   }
 
-  /// Returns the mean distance of the patch around a pixel, but of what compares the pixel itself, or what is kNear to
-  /// it.
+  /// Returns the mean distance of the patches around a pixel, without comparisons of the pixel itself or of pixels up
+  /// to kNear away.
   static float patch(const Plane& distance, const Plane& across, const Size& size, int x, int y, int dx, int dy) {
     const int x0 = std::max(0, x - kPatch), x1 = std::min(size.width, x + kPatch + 1), y0 = std::max(0, y - kPatch),
               y1 = std::min(size.height, y + kPatch + 1);
@@ -138,7 +139,7 @@ class Regression {
     for (int j = -kNear; j <= kNear; ++j)
       for (int i = -kNear; i <= kNear; ++i) {
         leaveOut(x + i, y + j);
-        // the pair in which it is the other one
+        // the pair whose other pixel it is
         if (std::abs(i - dx) > kNear || std::abs(j - dy) > kNear) leaveOut(x + i - dx, y + j - dy);
       }
     return count > 0 ? sum / static_cast<float>(count) : 0.0f;

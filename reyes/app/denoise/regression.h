@@ -13,8 +13,8 @@ struct Size {
 };
 
 constexpr int kBand = 16;  ///< Rows that one thread takes at a time.
-/// Light is independent between pixels that are farther apart: nearer ones share points of shading, and the pixel
-/// filter mixes them.
+/// Noise is independent between pixels that are farther apart than this: nearer ones share shading points, and the
+/// pixel filter mixes them.
 constexpr int kNear = 1;
 
 /// The planes that a regression reads.
@@ -24,8 +24,9 @@ struct RegressionInput {
   const std::vector<Plane>& guides;  ///< Planes of about the same scale.
 };
 
-/// Filters one half with weights of the other. No pixel's answer depends on the weighing half there, or kNear to it,
-/// but through `variance`: so that half can tell the answer's error. width: k of Rousselle et al.
+/// Filters one half with weights of the other. The answer at a pixel depends on the weighing half there, and up to
+/// kNear pixels away, only through `variance`; so that half can measure the answer's error. width: k of Rousselle et
+/// al.
 Color regression(const Size& size, const RegressionInput& in, float width);
 
 }  // namespace tomales::denoising

@@ -12,9 +12,9 @@
 namespace tomales {
 namespace {
 
-constexpr float kAuditFloor = 0.01f;  ///< Added to the colour that errors are shares of, as in `tomales chart`.
-/// Numbers of paths at each point in each of the two sets; a pixel sees several points. There are kFewestPaths at
-/// first, and then as many as their noise asks for until it is small beside the error.
+constexpr float kAuditFloor = 0.01f;  ///< Added to the divisor of relative errors, as in `tomales chart`.
+/// Numbers of paths at each point in each of the two sets; a pixel sees several points. The number is kFewestPaths at
+/// first, and grows until the noise is small beside the error.
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 0.4;
 constexpr int kMostGrowth = 4;  ///< No more than so many times the paths are added at once: a few tell little.

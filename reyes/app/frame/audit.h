@@ -1,6 +1,6 @@
-// The audit of a picture: light is found again in some of its pixels, by many rays and without records and maps, and
-// compared with what the picture has there. Noise of the picture's own rays cannot tell how wrong it is, because
-// interpolation errs alike with every seed (docs/decisions/0145).
+// The audit of a picture: in some of its pixels, light is computed again with many rays and without records and maps,
+// and compared with the picture. The noise of the picture's own rays cannot show how wrong it is, because interpolation
+// makes the same error with every seed (docs/decisions/0145).
 #pragma once
 #include <optional>
 
@@ -19,24 +19,25 @@ struct AuditSettings {
   uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
   bool direct = true;    ///< Direct light is audited, if the picture has any.
   bool indirect = true;  ///< Indirect light is audited: the frame has some.
-  /// The audit's noise may be a share of the error that it finds, or of this one: nobody asks how much smaller errors
-  /// are.
+  /// The noise of the audit may be a share of the error that it finds, or of this one if it is larger, because nobody
+  /// asks how much smaller an error is.
   double leastError = 0;
   double leastSmudges = 0;  ///< The same for SmudgeEstimate::deviation.
-  int lightSamples = 0;     ///< The most that an audited picture has of each light; 0: as many as the lights ask.
+  int lightSamples = 0;     ///< The most samples of each light in an audited picture; 0: as many as the lights ask.
   size_t smudgeSizes = kSmudgeSizes.size();  ///< SmudgeSettings::sizes.
 };
 
 struct AuditReport {
-  size_t pixels = 0;      ///< Number of pixels that the errors are taken from: they see something that is lit.
-  int paths = 0;          ///< Paths for indirect light at each point that these pixels see; 0 if that was not audited.
+  size_t pixels = 0;  ///< Number of pixels that the errors are computed from; these see something that is lit.
+  int paths =
+      0;  ///< Paths for indirect light at each point that these pixels see; 0 if indirect light was not audited.
   int lightSamples = 0;   ///< Samples of each light at each of these points; 0 if direct light was not audited.
   ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
-  /// Errors of one kind of light. They too are shares of the picture's colour.
+  /// Errors of indirect and of direct light. They too are shares of the picture's colour.
   std::optional<ErrorEstimate> indirect, direct;
-  /// An estimate of the mean error that too few samples in pixels add to those errors. It takes samples as independent.
-  /// They are stratified, and filters are wider than a pixel, so that the true error is mostly less. Details that no
-  /// sample sees can make it more.
+  /// Estimates the mean error that too few pixel samples add to those errors. It takes samples as independent. They are
+  /// stratified, and filters are wider than a pixel, so the true error is mostly smaller. Details that no sample sees
+  /// can make it larger.
   double pixelSamples = 0;
   std::vector<SmudgeEstimate> smudges;  ///< One for each size of blocks of which there are enough smooth ones.
 
@@ -54,9 +55,9 @@ struct FoundLight {
   vec3 noise(size_t p) const { return 0.5f * (sets[0][p] - sets[1][p]); }
 };
 
-/// Some pixels of a frame, and their true light. Several pictures can be compared with the same light, whose rays are
-/// traced when the first one wants them. The bits are the same for any number of threads; nothing of the frame changes.
-/// The references outlive it. Threads: one at a time.
+/// Some pixels of a frame, and their true light. Several pictures can be compared with that light; its rays are traced
+/// for the first of them. The bits are the same for any number of threads; nothing of the frame changes. The references
+/// outlive it. Threads: one at a time.
 class Audit {
  public:
   Audit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,

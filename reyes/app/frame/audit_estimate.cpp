@@ -31,7 +31,7 @@ double percentile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// The covariance of both estimates over some blocks, and what the smudges are then.
+/// The covariance of both estimates over some blocks, and the smudges that follow from it.
 struct SmudgeSums {
   double first = 0, second = 0, product = 0, differences = 0, count = 0;
   void add(const SmoothBlock& b) {

@@ -1,32 +1,33 @@
-// Estimates the error of the whole picture, and the certainty of that, from a sample of errors.
+// Estimates the error of the whole picture, with a confidence interval, from a sample of errors.
 #pragma once
 #include <cstddef>
 #include <span>
 
 namespace tomales {
 
-/// One place of the picture. Both are shares of the colour that is right there, means over its channels.
+/// One place of the picture. Both figures are relative to the right colour there, and means over its channels.
 struct AuditedError {
   float error = 0;  ///< Distance of the picture from the mean of two independent estimates of the truth.
   float noise = 0;  ///< Half of the difference of those two estimates, which is as large as the noise of their mean.
 };
 
 struct ErrorEstimate {
-  double mean = 0;           ///< Mean absolute relative error of the picture, without the noise of the audit.
-  double low = 0, high = 0;  ///< It lies between these with 90 % confidence; below `noise` nothing is told apart.
-  double noise = 0;          ///< Mean of AuditedError::noise.
-  double p99 = 0;  ///< 99 % of the places err by less. A few places decide this, so nothing says how certain it is.
+  double mean = 0;  ///< Mean absolute relative error of the picture, without the noise of the audit.
+  double low = 0,
+         high = 0;   ///< `mean` lies between these with 90 % confidence; errors below `noise` cannot be told from 0.
+  double noise = 0;  ///< Mean of AuditedError::noise.
+  double p99 = 0;    ///< 99 % of the places err by less. A few places decide this, so it has no interval.
 
-  /// Returns false if the audit is noisier than the picture errs, so that it has only found a bound of the error.
+  /// Returns false if the noise of the audit exceeds the error of the picture: then it has found only a bound.
   bool tells() const { return mean >= noise; }
 };
 
-/// The noise is taken off in squares: it and the error are independent. The interval is that of the percentile
+/// The noise is subtracted in squares, because it and the error are independent. The interval is that of the percentile
 /// bootstrap (Efron and Tibshirani 1993) over the places, with random numbers that depend on nothing.
 ErrorEstimate estimateError(std::span<const AuditedError> places);
 
-/// Two independent estimates of how much a block that should be smooth is off, as shares of the light that is right
-/// there: positive where it is too bright.
+/// Two independent estimates of the error of a block that should be smooth, relative to the right light there: positive
+/// if the block is too bright.
 struct SmoothBlock {
   double off[2];
 };
@@ -38,15 +39,15 @@ struct SmudgeEstimate {
   int size = 0;              ///< Pixels along an edge of a block.
   size_t blocks = 0;         ///< Number of smooth blocks.
   double deviation = 0;      ///< Standard deviation of picture / truth over the blocks, over its mean.
-  double low = 0, high = 0;  ///< It lies between these with 90 % confidence.
+  double low = 0, high = 0;  ///< `deviation` lies between these with 90 % confidence.
   double noise = 0;          ///< Deviation that the audit's own noise would show.
 
   bool isKnown() const { return blocks >= kFewestBlocks; }
   bool tells() const { return deviation >= noise; }
 };
 
-/// The deviation is the covariance of both estimates: their noise is independent, so that it adds nothing. The interval
-/// is that of estimateError().
+/// The variance is the covariance of both estimates: their noise is independent, so it adds nothing. The interval is
+/// found as by estimateError().
 SmudgeEstimate estimateSmudges(int size, std::span<const SmoothBlock> blocks);
 
 }  // namespace tomales

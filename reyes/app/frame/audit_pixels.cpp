@@ -16,7 +16,7 @@ namespace {
 auto placeOf(const AuditPixel& p) { return std::tuple(p.order, p.y, p.x); }
 bool isEarlier(const AuditPixel& a, const AuditPixel& b) { return placeOf(a) < placeOf(b); }
 
-/// Keeps the `count` pixels of the least order.
+/// Keeps the `count` pixels with the lowest order.
 void keepFirst(std::vector<AuditPixel>& pixels, size_t count) {
   if (pixels.size() <= count) return;
   std::nth_element(pixels.begin(), pixels.begin() + static_cast<ptrdiff_t>(count), pixels.end(), isEarlier);

@@ -1,4 +1,4 @@
-// The pixels of a picture that an audit looks at: some at random, each with all that its samples see.
+// The pixels that an audit looks at: a random choice, each with everything that its samples see.
 #pragma once
 #include <span>
 
@@ -9,7 +9,7 @@
 namespace tomales {
 
 struct AuditPixel {
-  uint32_t order;  ///< Pixels of the least order are taken.
+  uint32_t order;  ///< The pixels with the lowest order are chosen.
   int x, y;
   DeepTile tile;  ///< The pixel alone.
 };

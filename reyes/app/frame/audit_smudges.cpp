@@ -15,13 +15,14 @@ namespace {
 
 constexpr int kCellsAcross = 8;  ///< Pixels that are looked at along each edge of a block, one in each cell of a grid.
 constexpr int kPixelsOfBlock = kCellsAcross * kCellsAcross;
-/// Paths at each point in each of the two sets: so many at first, then as many again until they are quiet.
+/// Paths at each point in each of the two sets: the least number at first, which is then doubled until the sets are
+/// quiet.
 constexpr int kFewestPathsOfBlocks = 4, kMostPathsOfBlocks = 64;
-constexpr double kQuietBlocks = 0.8;  ///< The most noise of the audit, as a share of what it finds.
+constexpr double kQuietBlocks = 0.8;  ///< Paths are added while the noise exceeds this share of the deviation.
 constexpr int kBothHalves = 2;
 
-/// Returns the set of rays that has this pixel, in blocks of which some pixels are left out. Each set has pixels of its
-/// own, so that the difference of the two sets includes the effect of the choice of pixels.
+/// Returns the set of rays to which this pixel belongs, in blocks where some pixels are left out. The sets have
+/// separate pixels, so their difference includes the effect of the choice of pixels.
 int halfOfCell(int cell) { return (cell % kCellsAcross + cell / kCellsAcross) % 2; }
 
 struct BlockMeans {
@@ -33,7 +34,7 @@ struct BlockMeans {
 /// The pixels of a block in one tile.
 struct SmudgeAudit::Part {
   size_t block;
-  int half;  ///< The set of rays that looks at them, or kBothHalves.
+  int half;  ///< The set of rays that sees them, or kBothHalves.
   DeepTile tile;
   std::vector<ivec2> pixels;
   std::vector<int> cells;  ///< Cell of each pixel.
@@ -87,7 +88,7 @@ size_t SmudgeAudit::cellAt(int x, int y) const {
          static_cast<size_t>((x - layout_.padded.x0) / kCellsAcross);
 }
 
-/// Chooses blocks of this size, of a grid that tiles of buckets hold as a whole.
+/// Chooses blocks of this size from a grid whose blocks each lie within one tile.
 void SmudgeAudit::add(int size) {
   const PixelRect &crop = layout_.crop, &all = layout_.padded;
   std::vector<std::pair<uint32_t, ivec2>> order;

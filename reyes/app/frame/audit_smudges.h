@@ -1,5 +1,5 @@
 // The part of an audit that looks for smudges: light that is wrong over whole blocks of a smooth region. A mean over
-// all pixels hardly shows them, and an eye does.
+// all pixels hardly shows them, but the eye sees them.
 #pragma once
 
 #include "reyes/app/frame/audit_estimate.h"
@@ -18,8 +18,8 @@ struct SmudgeSettings {
   double leastDeviation = 0;  ///< AuditSettings::leastSmudges.
 };
 
-/// Some blocks of pixels of each size, and their true light, whose rays are traced when the first picture wants them.
-/// The bits are the same for any number of threads. The references outlive it. Threads: one at a time.
+/// Some blocks of pixels of each size, and their true light, whose rays are traced for the first picture. The bits are
+/// the same for any number of threads. The references outlive it. Threads: one at a time.
 class SmudgeAudit {
  public:
   SmudgeAudit(const DeepFrame& layout, const TileReader& tiles, const Scene& scene, const ShadingSystem& shading,
@@ -27,8 +27,8 @@ class SmudgeAudit {
 
   ~SmudgeAudit();
 
-  /// Returns the smudges of the picture that is shaded in this context, for each size that has enough blocks, which all
-  /// see something. Pre: as for Audit::of().
+  /// Returns the smudges of the picture that is shaded in this context, for each size that has enough blocks. All
+  /// pixels of a block see something. Pre: as for Audit::of().
   std::vector<SmudgeEstimate> of(const ShadeContext& context);
 
  private:

@@ -1,5 +1,5 @@
-// Hidden buckets in a file beside the picture. With --resume it has all of them, with those of an interrupted run. Else
-// it has those that do not fit in memory, and is removed when the program ends. Threads: any.
+// Hidden buckets in a file beside the picture. With --resume the file keeps all of them, those of an interrupted run
+// included. Otherwise it keeps those that do not fit in memory, and is removed when the program ends. Threads: any.
 #pragma once
 #include <atomic>
 #include <mutex>
@@ -13,7 +13,7 @@ class BucketFile {
  public:
   BucketFile(const Scene& scene, const DeepFrame& layout, int world, const RenderSettings& settings, Log& log);
 
-  /// Returns nothing if the file has none of this number.
+  /// Returns nothing if the file has no bucket of this index.
   std::optional<DeepTile> tile(size_t index) const;
   /// Does nothing without --resume.
   void keepForResume(size_t index, const DeepTile& tile);

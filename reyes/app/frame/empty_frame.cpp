@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// Returns in words which plane of the view has all of `bound` on its wrong side. oneSided: Sides 1 hides something.
+/// Returns in words which side of the view `bound` is outside of. oneSided: Sides 1 hides something.
 std::string sideOf(const Bound3& bound, const Camera& camera, bool oneSided) {
   if (bound.hi.z < camera.nearClip())
     return bound.hi.z < 0 ? "behind the camera, which looks along +z" : "nearer than the near clipping plane";
@@ -45,7 +45,7 @@ void explainEmptyFrame(const Scene& scene, Log& log) {
     why = fmt::format(
         "what the camera might see lies {}: in camera space from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
         sideOf(bound, camera, oneSided), bound.lo.x, bound.lo.y, bound.lo.z, bound.hi.x, bound.hi.y, bound.hi.z);
-  log.report(Severity::Missing, "frame-empty", scene.where, "nothing is to be seen in this frame: " + why);
+  log.report(Severity::Missing, "frame-empty", scene.where, "nothing is visible in this frame: " + why);
 }
 
 bool cropHasPixels(const Scene& scene, Log& log) {

@@ -6,7 +6,7 @@
 namespace tomales {
 
 /// Reports, for a frame in which no micropolygon was seen, where the objects are, or what hides them. It says nothing
-/// of a frame that crops, which may well be empty.
+/// about a cropped frame, which may well be empty.
 void explainEmptyFrame(const Scene& scene, Log& log);
 
 /// Tells whether CropWindow holds a pixel. A window that is narrower than a pixel may lie between two centres; such a

@@ -10,21 +10,21 @@ namespace {
 
 /// Noise and bias each have at least this share of an error's square: a trial may show none of it by chance.
 constexpr double kLeastShare = 0.03;
-/// Limits of the search from the base, in steps of half an octave up or down.
+/// Limits of the search around the base, in half octaves.
 constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
-/// Absolute limits of the search, whatever trials had.
+/// Absolute limits of the search, whatever the trials used.
 constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;
 /// Limits of the power of costs that were measured in the same buckets. Other powers are chance.
 constexpr double kLeastKnownPower = 0.6, kMostKnownPower = 1;
-/// The most of a cost that two trials may find to be fixed: the first also pays for what is read once.
+/// The largest share of a cost that two trials may find to be fixed: the first trial also pays for reading files.
 constexpr double kMostFixed = 0.95;
-/// A cost that was measured at so many times a known setting tells how the cost changes.
+/// A cost that was measured at this many times a known setting shows how the cost changes.
 constexpr double kFarFromKnown = 4;
 constexpr double kDeviation = 0.25;        ///< Standard deviation of the logarithm of the model's errors.
 constexpr double kLeastOfInterval = 0.05;  ///< The low end of an interval is at least this share of what was seen.
 constexpr double kNormalAt95 = 1.645;      ///< The 95th percentile of the normal distribution.
-constexpr int kFineSteps = 16;             ///< Steps of an octave where a time is to be used up.
+constexpr int kFineSteps = 16;             ///< Steps per octave when a given time is to be used up.
 
 /// Returns the power of x by which y changes between two trials, within limits.
 double power(double x0, double y0, double x1, double y1, double least, double most) {
@@ -257,7 +257,7 @@ LightQuality ErrorModel::withMoreRays(const LightQuality& given, double most) co
 LightQuality ErrorModel::bestLightSamples(const LightQuality& given, double most) const {
   LightQuality out = given;
   if (!(base_.direct > 0) || given.lightSamples <= 0) return out;
-  int low = 1, high = kMostLightSamples + 1;  // the most is `low`, or between them
+  int low = 1, high = kMostLightSamples + 1;  // the answer is in [low, high)
   while (high - low > 1) {
     out.lightSamples = (low + high) / 2;
     (shadeCost(out) <= most ? low : high) = out.lightSamples;

@@ -20,7 +20,7 @@ struct LightQuality {
 /// Returns them as options of the command line.
 std::string optionsOf(const LightQuality&);
 
-/// The errors and costs of a frame that had this quality. Errors are mean relative ones, as audits state them.
+/// The errors and costs of a frame with this quality. Errors are mean relative errors, as audits state them.
 struct QualityTrial {
   LightQuality quality;
   double indirect = 0, direct = 0;
@@ -43,8 +43,8 @@ struct ErrorTarget {
 double likelyError(double expected, double seen, double low, double high);
 
 /// An error of gathered light. Its square is the noise of rays, which falls with their number, plus the square of the
-/// error of interpolation, a power of maxError. It is taken from trials and kept within known limits of such errors, so
-/// that the chance of a trial does not run away with the model.
+/// error of interpolation, a power of maxError. Its constants are fitted to trials, and kept within the known range of
+/// such errors, so that the noise of a trial cannot spoil the model.
 class RecordError {
  public:
   RecordError() = default;
@@ -56,10 +56,10 @@ class RecordError {
   RecordError(const Seen& base, const Seen& finer, const std::optional<Seen>& wider);
   /// Learns from a trial with a smaller maxError than the base.
   void addNarrower(const Seen& narrower);
-  /// Scales it to what a picture of this quality has had.
+  /// Scales the model to the error that a picture of this quality had.
   void correct(const Seen& picture);
   double at(const LightQuality&) const;
-  /// Returns true if a picture may err in this way at all.
+  /// Returns true if there is any error of this kind.
   bool any() const { return noise_ + bias_ > 0; }
 
  private:
@@ -68,14 +68,14 @@ class RecordError {
   double power_ = 0, narrowPower_ = 0, scale_ = 1;
 };
 
-/// A cost that has a fixed part, and one that is proportional to a setting, from two trials.
+/// A cost with a fixed part and a part that is proportional to a setting, found from two trials.
 class CostLine {
  public:
   CostLine() = default;
   CostLine(double x0, double cost0, double x1, double cost1);
   double at(double x) const;
-  /// Takes in a cost that was seen at x. If x is far from what the line knows, and the cost is more than expected, the
-  /// line goes through it from now on: a line that is too flat would find any setting cheap. Otherwise it is only
+  /// Learns a cost that was measured at x. If x is far from the trials, and the cost is higher than expected, the line
+  /// goes through it from now on: a line that is too flat would find any setting cheap. Otherwise the line is only
   /// scaled.
   void learn(double x, double cost);
 
@@ -95,28 +95,28 @@ class ErrorModel {
 
   double indirectError(const LightQuality& q) const { return indirect_.at(q); }
   double directError(const LightQuality&) const;
-  double error(const LightQuality&) const;  ///< Both together, which are independent.
+  double error(const LightQuality&) const;  ///< Both errors together; they are independent.
   double smudges(const LightQuality& q) const { return smudges_.at(q); }
   double gatherCost(const LightQuality&) const;
-  /// Returns the same for a share of the frame, which needs all records of further bounces.
+  /// Returns the cost for a share of the frame. Even a part needs all records of further bounces.
   double gatherCostOf(double share, const LightQuality&) const;
   double shadeCost(const LightQuality&) const;
   double cost(const LightQuality& q) const { return gatherCost(q) + shadeCost(q); }
   /// Learns from two trials in the same buckets how the cost of gathering changes with rays.
   void learnRays(const QualityTrial& few, const QualityTrial& many);
-  /// Learn from what the whole frame has taken.
+  /// Learn from the cost of the whole frame.
   void correctGatherCost(const LightQuality&, double cost);
   void correctShadeCost(const LightQuality&, double cost);
 
-  /// Scales the errors to those that a picture has had.
+  /// Scales the errors to those that a picture had.
   void correct(const QualityTrial& picture);
 
   /// Returns the quality that reaches the target at the least cost. If none does within the range in which the model
-  /// may be believed, the one that comes nearest. `gathered`: the quality of records that there are, which cost
+  /// can be trusted, returns the one that comes nearest. `gathered`: the quality of existing records, which cost
   /// nothing.
   LightQuality cheapest(const ErrorTarget& target, const std::optional<LightQuality>& gathered = {}) const;
-  /// Returns the best quality that costs no more than `most`: the worse of mean error and smudges is least, and it has
-  /// as many rays as the cost then leaves room for. If every quality costs more, the cheapest one.
+  /// Returns the best quality that costs no more than `most`: it minimizes the worse of mean error and smudges, and
+  /// spends what is left on rays. If every quality costs more, returns the cheapest one.
   LightQuality best(double most) const;
   /// Returns the same with records as wide as those of `given`.
   LightQuality bestAsWide(const LightQuality& given, double most) const;

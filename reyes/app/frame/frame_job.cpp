@@ -54,7 +54,7 @@ void FrameJob::warnAboutPixels() const {
     if (!inside.contains(x, y)) outside += fmt::format("{}{},{}", outside.empty() ? "" : " and ", x, y);
   if (!outside.empty())
     log_.report(Severity::Warning, "pixel-outside", {},
-                fmt::format("--pixel: {} lies outside of the picture: nothing can be told of it", outside));
+                fmt::format("--pixel: {} lies outside of the picture: nothing can be printed for it", outside));
 }
 
 FrameJob::~FrameJob() = default;
@@ -83,7 +83,7 @@ void FrameJob::prepareRays() {
 void FrameJob::findOpenings() {
   if (!wantsSkyPortals(scene_, *shading_)) return;
   const StageTimer timer(stats_, "raytrace");
-  // Whoever shades the shot chooses displacements again.
+  // The command that shades the shot chooses displacements again.
   std::vector<std::shared_ptr<const Attributes>> ofGroups, ofObjects;
   for (const ShadeGroup& g : scene_.groups) ofGroups.push_back(g.attributes);
   for (const Object& o : scene_.objects) ofObjects.push_back(o.attributes);

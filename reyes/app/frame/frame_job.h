@@ -23,15 +23,15 @@ class FrameJob {
   FrameJob(Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Stats& stats, Log& log);
   ~FrameJob();
 
-  /// Sets the shares of the progress at which all is hidden, and then gathered, for commands that do not do it all.
+  /// Sets the shares of the progress at which hiding and gathering are finished, for commands that leave out a stage.
   void setShares(float hidden, float gathered) { meter_.setShares(hidden, gathered); }
-  /// Reads all procedurals that are still closed. Call it before hiding if tiles leave that one by one, to a file or
-  /// shaded: hiding then finds no new shade groups on its way.
+  /// Reads all procedurals that are still closed. Call it before hiding if tiles are written or shaded one by one:
+  /// hiding then meets no new shade groups.
   void openAll();
   /// Finds the openings to the sky for a scene that goes to a file, by rays that are dropped. Call it after openAll().
   void findOpenings();
-  /// Keeps what is gathered and shaded for a later run, and takes over what an interrupted one has. Call it before rays
-  /// are prepared. Null: nothing is kept.
+  /// Keeps what is gathered and shaded for a later run, and takes over the work of an interrupted one. Call it before
+  /// rays are prepared. With null nothing is kept.
   void useCheckpoint(Checkpoint* kept) { kept_ = kept; }
   /// Prepares rays against the scene itself.
   void prepareRays();
@@ -46,7 +46,7 @@ class FrameJob {
   bool gathers() const { return gathers_; }
   /// Tells whether photons are counted at points of the picture.
   bool counts() const { return counts_; }
-  /// Tells whether light has to be gathered or counted, where records are given or not.
+  /// Tells whether light has to be gathered or counted, if records are given or if not.
   bool gathersBeside(bool recordsGiven) const { return counts_ || (gathers_ && !recordsGiven); }
   const GiMethod& method() const { return *method_; }
   GiMode mode() const { return method_->mode; }

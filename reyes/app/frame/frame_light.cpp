@@ -32,7 +32,7 @@ void FrameLight::make(bool gathers) {
     tellMissed(report, quality, optionsOf(job_.quality()) + ", which hold for the animation", job_.log());
 }
 
-/// Tells whether rays and records decide the error of the light; says so if not.
+/// Tells whether rays and records decide the error of the light; if not, that is reported.
 bool FrameLight::isSteered() const {
   const GiMethod& method = job_.method();
   if (method.mode == GiMode::None || method.caches || (method.isReference && !job_.counts())) return true;

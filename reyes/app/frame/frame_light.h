@@ -15,25 +15,25 @@ class FrameLight {
   const DeepFrame& layout() const { return layout_; }
   const TileReader& tiles() const { return tiles_; }
 
-  /// Gathers what the picture needs, and measures and tells its error: with settings of the program's own choice where
-  /// the command line names an error to reach, or a time. `gathers`: false if records are given.
+  /// Gathers what the picture needs, and measures and reports its error. The program chooses the settings itself if the
+  /// command line names an error to reach, or a time. `gathers`: false if records are given.
   void make(bool gathers);
 
   // The steps of make(), which may be repeated.
   /// Gathers, warns of what the records show, and keeps light for later frames if the command line asks for it.
   void gather();
-  /// The first part of it, for records that may be gathered again: what is there is shown.
+  /// The first part of gather(), for records that may be gathered again. The viewer shows what is gathered so far.
   void gatherShown();
-  /// The rest of it, for those that stay.
+  /// The rest of gather(), for the records that stay.
   void endGather();
   /// Gathers in all tiles that there are, and shows nothing.
   void gatherRecords() { gatherRecords({}, {}); }
   /// Returns the settings that `--audit` asks for, at pixels that this seed decides.
   AuditSettings auditSettings(uint32_t seed) const;
-  /// Measures the error that the picture will have. The tiles are read once. `matters`: smaller errors need not be told
-  /// from the audit's own noise.
+  /// Measures the error that the picture will have. The tiles are read once. Errors below `matters` may be hidden by
+  /// the noise of the audit.
   AuditReport audit(uint32_t seed, const ErrorTarget& matters = {});
-  /// Tells it: by a message, and in the headers of the Displays and the statistics.
+  /// Reports the audit in a message, in the headers of the Displays, and in the statistics.
   void tellAudit(const AuditReport& report);
 
  private:

@@ -13,7 +13,7 @@ class FrameMeter {
 
   FrameMeter(bool wanted, ProgressWatcher watcher) : meter_(wanted, "preparing", std::move(watcher)) {}
 
-  /// Sets the shares at which all is hidden, and then gathered, for commands that do not do it all.
+  /// Sets the shares at which hiding and gathering are finished, for commands that leave out a stage.
   void setShares(float hidden, float gathered) {
     hidden_ = hidden;
     gathered_ = gathered;

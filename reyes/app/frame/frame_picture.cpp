@@ -28,7 +28,7 @@ class PictureWriter {
                     const std::function<void(size_t tile, const DeepTile&)>& keep);
 
  private:
-  /// Returns the first of the arrays of ShadedPoints::variables that show noise; negative: none do.
+  /// Returns the index of the first array of ShadedPoints::variables for the noise; negative if there is none.
   static int noiseOf(FrameJob& job) {
     int first = -1;
     for (const Variable& v : outputOf(job.scene().options).variables)
@@ -37,7 +37,8 @@ class PictureWriter {
     return first;
   }
 
-  /// Stores how far another draw of all noise is from the colours of a shaded tile (VariableSource::Noise).
+  /// Stores how far the colours of a shaded tile differ from a second draw of all random numbers
+  /// (VariableSource::Noise).
   void tellNoise(DeepTile& tile) const;
   /// Keeps the colours of a tile that is shaded as the finished picture has it, for a later run. A tile that is not
   /// shaded again bakes nothing, so no tile is kept once anything has been baked.
@@ -77,13 +78,13 @@ void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t til
   ShadeContext context = job_.shadeContext();
   const bool cut = stopRequested(), resumes = cut && job_.kept();
   if (cut) {
-    // Without --resume the hidden buckets are shaded with direct light, which a second signal ends too. With --resume
-    // such light would be thrown away.
+    // Without --resume the hidden buckets are shaded with direct light, until a second signal. With --resume such light
+    // would be thrown away.
     job_.log().report(Severity::Warning, "interrupted", {},
                       resumes ? "interrupted: shaded buckets are written; the same command goes on from here"
                               : "interrupted: finished buckets are shaded with direct light and written");
     context.indirect = false;
-    context.diffuseLimit = 0;  // shaders may ask for indirect light themselves, with a thousand rays a point
+    context.diffuseLimit = 0;  // shaders may ask for indirect light themselves, with a thousand rays per point
   }
   size_t shaded = 0;
   bool complete = true;

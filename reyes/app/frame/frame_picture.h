@@ -4,7 +4,8 @@
 
 namespace tomales {
 
-/// Writes the picture of tiles that are hidden. After an interrupt it still writes what is there; a second one ends it.
+/// Shades hidden tiles and writes their picture. After an interrupt it still writes what is finished; a second
+/// interrupt ends it.
 void writePicture(FrameJob& job, const DeepFrame& layout,
                   const std::function<std::optional<DeepTile>(size_t tile)>& load);
 /// Hides and shades tiles as the rows of the picture need them, and writes it. `find` returns the tiles of an

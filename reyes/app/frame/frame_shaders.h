@@ -6,8 +6,9 @@
 
 namespace tomales {
 
-/// Knows the built-in shaders, and finds what else the settings allow. Everything that asks for the shaders of one
-/// frame shares one registry: each file is then loaded once, and what is wrong with it is reported once.
+/// Returns a registry that knows the built-in shaders, and finds whatever else the settings allow. Everything that asks
+/// for the shaders of one frame shares one registry: each file is then loaded once, and what is wrong with it is
+/// reported once.
 inline std::unique_ptr<ShaderRegistry> frameShaders(const RenderSettings& settings, Log& log) {
   auto registry = std::make_unique<ShaderRegistry>(log, pluginTrust(settings), settings.input.standardFromFiles);
   registry->addLibrary(tomales_builtin_shaders(), "built-in");

@@ -5,7 +5,7 @@
 
 namespace tomales {
 
-/// Hides all buckets and opens what that needs. Returns false if it was interrupted.
+/// Hides all buckets, and opens the procedurals that it meets. Returns false if it was interrupted.
 bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
 /// Shades some buckets. Returns false if it was interrupted.
 bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps);

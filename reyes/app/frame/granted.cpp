@@ -9,7 +9,7 @@
 namespace tomales {
 namespace {
 
-/// The rest of the granted memory is for what --memory-limit does not bound.
+/// The rest of the granted memory is for data that --memory-limit does not bound.
 constexpr double kShareOfMemory = 0.8;
 constexpr int64_t kMegabyte = 1 << 20;
 
@@ -46,7 +46,7 @@ RenderSettings asGranted(RenderSettings settings, Log& log) {
     said +=
         fmt::format("{}--memory-limit {}M", said.empty() ? "" : " and ", *settings.resources.memoryLimit / kMegabyte);
   }
-  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "what Slurm has granted sets " + said);
+  if (!said.empty()) log.report(Severity::Info, "slurm-grant", {}, "the resources that Slurm has granted set " + said);
   return settings;
 }
 

@@ -6,7 +6,7 @@
 
 namespace tomales {
 
-/// Sets threads and the limit of memory to what was granted where the command line does not ask for others, and tells.
+/// Sets threads and the memory limit to what was granted, unless the command line sets them, and reports this.
 RenderSettings asGranted(RenderSettings settings, Log& log);
 
 }  // namespace tomales

@@ -20,7 +20,8 @@ Json purposeOf(const QualitySettings& s) {
   return {{"target_error", s.targetError}, {"target_smudges", s.targetSmudges}, {"time_budget_s", s.timeBudget_s}};
 }
 
-/// 0 and negative numbers stand for what the scene asks, which is no number.
+/// Merges a setting of two pilots. With 0 or a negative number a pilot leaves it to the scene, and the other's value
+/// counts.
 template <class T>
 T mergedSetting(T a, T b, bool takesLarger) {
   if (!(a > 0) || !(b > 0)) return std::max(a, b);

@@ -1,5 +1,5 @@
-// Settings of light that hold for all frames of an animation. Found for each frame alone they would change from frame
-// to frame, and what each of them gets wrong would flicker (docs/decisions/0177).
+// Settings of light that hold for all frames of an animation. If they were found for each frame alone, they would
+// change from frame to frame, and so would the errors, which would flicker (docs/decisions/0177).
 #pragma once
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ struct HeldQuality {
 /// Returns a few of these frames: the first, the middle and the last.
 std::vector<int> pilotsOf(const std::vector<int>& frames);
 
-/// Sets what the quality names; the frame is lit by it, and no trials are made.
+/// Puts the quality into the settings: the frame is lit with it, and no trials are made.
 void hold(const LightQuality& quality, RenderSettings& settings);
 
 /// Merges what another pilot has found for a world. With --target-error the finest of all hold, so that each frame

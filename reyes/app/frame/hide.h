@@ -7,7 +7,7 @@
 
 namespace tomales {
 
-/// Writes to PictureSettings::output, bucket by bucket; with PictureSettings::resume, it hides those that an
+/// Writes to PictureSettings::output, bucket by bucket. With PictureSettings::resume it hides only the buckets that an
 /// interrupted run left out.
 void hideToFile(Scene& scene, ShaderRegistry& shaders, int world, const RenderSettings& settings, Stats& stats,
                 Log& log);

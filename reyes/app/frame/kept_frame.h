@@ -8,8 +8,8 @@
 
 namespace tomales {
 
-/// Opens the file beside the frame's first picture. Null without --resume, and, with a message, where it cannot be told
-/// that a later run renders the same. Pre: all procedurals have been opened.
+/// Opens the file beside the frame's first picture. Returns null without --resume. It also returns null, with a
+/// message, where nobody can tell whether a later run renders the same. Pre: all procedurals have been opened.
 std::unique_ptr<Checkpoint> checkpointOf(const Scene& scene, ShaderRegistry& shaders, const DeepFrame& layout,
                                          const RenderSettings& settings, Log& log);
 

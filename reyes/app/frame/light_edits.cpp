@@ -8,7 +8,7 @@
 namespace tomales {
 namespace {
 
-/// Returns the parameters of a light but those that only multiply what it sends.
+/// Returns the parameters of a light except those that only multiply its light.
 std::map<std::string, Param> otherParams(const ShaderCall& light, const TmShader& shader) {
   std::map<std::string, Param> out;
   for (const Param& p : light.params) out.emplace(p.name, p);

@@ -25,7 +25,7 @@ void setRadiosity(GiServices& services, const FrameOfLight& frame) {
   });
 }
 
-/// Opens the maps now: points are looked up and never gathered, so no later moment comes to open them.
+/// Opens the maps at once: with this method nothing is gathered, which is when other methods open theirs.
 void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
   if (!hasGeometry(frame.scene))
     return frame.log.report(Severity::Missing, "baked-folder", {},
@@ -33,7 +33,7 @@ void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
   services.setAtlas(openBaked(frame.scene, frame.shading, frame.settings, frame.log));
 }
 
-/// Counts photons at visible points: in the reference those of caustics, where mirrors or glass make any.
+/// Counts photons at visible points. In the reference these are photons of caustics, if mirrors or glass can make any.
 void setPhotons(GiServices& services, const FrameOfLight& frame) {
   if (!countsPhotons(methodOf(frame.settings, frame.shading), frame.scene)) return;
   const bool causticsAlone = methodOf(frame.settings, frame.shading).causticsAlone;

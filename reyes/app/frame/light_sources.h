@@ -1,5 +1,4 @@
-// The maps that methods of indirect light need beside rays: they exist, or are made. The table has a row for each
-// method.
+// Opens or makes the maps that methods of indirect light need beside rays. A table has a row for each method.
 #pragma once
 #include "gi/services.h"
 #include "reyes/app/settings.h"
@@ -12,7 +11,7 @@ const GiMethod& methodOf(const RenderSettings& settings, const ShadingSystem& sh
 /// Tells whether photons are counted at visible points before this scene is shaded.
 bool countsPhotons(const GiMethod& method, const Scene& scene);
 
-/// All that it refers to must outlive the services.
+/// All objects that it refers to must outlive the services.
 struct FrameOfLight {
   const RaySource& rays;
   const Scene& scene;  ///< The scene that is shaded; that of a shot has no geometry.

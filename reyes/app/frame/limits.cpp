@@ -17,14 +17,14 @@ constexpr float kUncertain = 0.1f, kDark = 0.1f;
 constexpr float kShareOfRecords = 0.5f;
 constexpr double kUncertainLight = 0.25;
 constexpr double kShareOfStarts = 0.42;
-constexpr int64_t kFewStarts = 10'000;  // Rays that start fewer times say nothing about the whole.
+constexpr int64_t kFewStarts = 10'000;  // Fewer starts of rays say nothing about the whole.
 constexpr size_t kFewRecords = 32;      // Fewer records say nothing about the whole.
 
 }  // namespace
 
 void warnOfFloatRange(const Scene& scene, Log& log) {
-  // Object to camera is one matrix; its translation is the sum of two that cancel, each as long as this. The error
-  // along the depth moves nothing in the picture.
+  // Object to camera is one matrix, whose translation is the sum of two nearly opposite ones of about this length. The
+  // error along the depth moves nothing in the picture.
   const float away = glm::length(vec2(scene.cameraFromWorldAtOpen()[3]));
   const float lost = away * std::numeric_limits<float>::epsilon();
   const Camera camera(scene.options);
@@ -34,7 +34,7 @@ void warnOfFloatRange(const Scene& scene, Log& log) {
     const float pixel = camera.pixelSize(bound.center());
     if (!(bound.lo.z > 0 && lost > kShift_px * pixel)) continue;
     log.report(Severity::Warning, "float-range", o.where,
-               fmt::format("{}: the camera is {:.3g} units beside the origin of the world, where floats are {:.2g} "
+               fmt::format("{}: the camera is {:.3g} units away from the origin of the world, where floats are {:.2g} "
                            "apart; a pixel is {:.2g} there: "
                            "move camera and scene nearer to the origin",
                            objectName(o), away, lost, pixel));
@@ -74,12 +74,12 @@ void warnOfNoise(std::span<const PreparedCache> caches, Log& log) {
     const float share = static_cast<float>(uncertain) / static_cast<float>(records.size());
     if (share > kShareOfRecords)
       log.report(Severity::Warning, "gather-noise", {},
-                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays a record "
-                             "are few for this light ({})",
+                 fmt::format("{:.0f} % of {} irradiance records are uncertain by more than {:.0f} %: {} rays per "
+                             "record are too few for this light ({})",
                              100 * share, records.size(), 100 * kUncertain, c.key.gather.samples, knob));
     else if (sum > 0 && noise > kUncertainLight * sum)
       log.report(Severity::Warning, "gather-few", {},
-                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays a "
+                 fmt::format("indirect light is uncertain by {:.0f} %: most of it comes by a few of the {} rays of a "
                              "record, from something small and bright, which others miss ({})",
                              100 * noise / sum, c.key.gather.samples, knob));
   }

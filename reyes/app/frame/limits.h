@@ -1,5 +1,4 @@
-// Warnings where methods reach their limits on the scene at hand; the laboratory of docs/measured/limits.md shows what
-// happens beyond.
+// Warns where a method reaches its limits on the scene at hand; docs/measured/limits.md shows what happens beyond them.
 #pragma once
 #include <span>
 
@@ -9,17 +8,17 @@
 
 namespace tomales {
 
-/// Warns once, with the first such object, if the camera is so far from the origin that floats move points by a good
-/// part of a pixel.
+/// Warns once, with the first such object, if the camera is so far from the origin that rounding of floats moves points
+/// by a good part of a pixel.
 void warnOfFloatRange(const Scene& scene, Log& log);
 
 /// Warns once, with the first such object, if micropolygons of a surface that is not flat are so large that outlines
 /// have corners.
 void warnOfCoarseDicing(const Scene& scene, Log& log);
 
-/// Warns if more than half of the irradiance records are uncertain by a tenth or more. That is the standard error of
-/// their luminance; for records darker than a tenth of the mean, against that tenth. Also warns if their light as a
-/// whole is uncertain by a quarter, because few rays bring it.
+/// Warns if more than half of the irradiance records have a relative standard error of luminance of a tenth or more.
+/// For records darker than a tenth of the mean, the error is relative to that tenth. Also warns if the error of their
+/// light as a whole is a quarter, because few rays bring it.
 void warnOfNoise(std::span<const PreparedCache> caches, Log& log);
 
 /// Warns once for each group that rays leave by guesses (RayScene::starts): its walls are thinner than rays can tell.

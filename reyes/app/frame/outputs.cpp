@@ -17,12 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tells whether a Display writes what later frames read, by its type or by a Make request.
+/// Tells whether later frames read the file of a Display, by its type or through a Make request.
 bool feedsFrames(const DisplayCall& d, const RenderSettings& settings) {
   return writesMap(d) || settings.input.sources.contains(fs::path(d.name).lexically_normal().string());
 }
 
-/// A picture to be looked at has no alpha, and is sRGB unless the scene's Exposure encodes already.
+/// Sets up a Display for pictures to be looked at: without alpha, and in sRGB unless the scene's Exposure encodes
+/// already.
 void writeForScreens(DisplayCall& display, const Options& options) {
   display.mode = "rgb";
   if (options.exposureGamma != 1 || findParam(display.params, "transfer")) return;
@@ -41,7 +42,7 @@ std::string beside(const std::string& output, const std::string& first, const st
   return (to.parent_path() / (to.stem().string() + rest + from.extension().string())).string();
 }
 
-/// Returns the names that it gives.
+/// Applies -o. Returns the names that it has given.
 std::set<std::string> replaceByOutput(Options& options, const RenderSettings& settings) {
   std::vector<DisplayCall>& displays = options.displays;
   const auto isMap = [&](const DisplayCall& d) { return feedsFrames(d, settings); };
@@ -64,8 +65,8 @@ std::set<std::string> replaceByOutput(Options& options, const RenderSettings& se
   return names;
 }
 
-/// Keeps files that the scene writes below the root, and where they are read again, but not those that the user named.
-/// A .dfb or .icf as output stands for all Displays, and the scene writes none.
+/// Moves files that the scene writes to below the root, and also where they are read again, but not files that the user
+/// named. A .dfb or .icf as output stands for all Displays, and the scene writes none.
 void keepBelow(const RenderSettings& settings, const std::set<std::string>& named, Options& options) {
   const std::string& root = settings.picture.outputRoot;
   const bool writesDisplays = settings.picture.output.empty() || namesPicture(settings.picture.output);

@@ -56,7 +56,7 @@ RaySettings raySettings(const RenderSettings& settings, const Options& options) 
   RaySettings out{settings.light.hitList};
   if (const Param* limit = findParam(options.user, "limits:geocachememory"))
     out.geometryCacheBytes = static_cast<size_t>(std::clamp(limit->number(0), 0.0f, 1e15f) * 1024);
-  // Nodes of a cluster grant different sizes, and give the same bits.
+  // Nodes of a cluster may grant different sizes, and must give the same bits.
   if (settings.resources.memoryLimit && !settings.resources.memoryIsGranted)
     out.coarseBytes = static_cast<size_t>(rayShare(*settings.resources.memoryLimit));
   if (settings.resources.geometryCache) out.geometryCacheBytes = static_cast<size_t>(*settings.resources.geometryCache);

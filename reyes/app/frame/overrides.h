@@ -5,8 +5,8 @@
 
 namespace tomales {
 
-/// Applies format, crop, rates and buckets; asks for an indirect light where the mode wants one. A frame that writes
-/// nothing but maps for later frames keeps its own format and all of its view.
+/// Applies format, crop, rates and bucket size, and adds an indirect light where the mode needs one. A frame that
+/// writes nothing but maps for later frames keeps its own format and all of its view.
 void applyOverrides(Scene& scene, const RenderSettings& settings);
 
 /// Returns settings with the memory for geometry that Option "limits" "geocachememory" and --geometry-cache allow.

@@ -63,7 +63,7 @@ std::string sceneText(const RenderSettings& settings) {
   return out;
 }
 
-/// Sums size and time of change of all files that the scene's shaders are made of.
+/// Returns a checksum of the sizes and times of change of all files that the scene's shaders are made of.
 uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   std::set<const ShaderCall*> seen;
@@ -116,7 +116,7 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
   options.bucketHeight = usual.bucketHeight;
   options.bucketOrder = usual.bucketOrder;
   options.searchPaths.clear();
-  options.user.clear();                   // worldSum() has what counts of them
+  options.user.clear();                   // worldSum() includes those that matter
   options.cropWindow = usual.cropWindow;  // pictures have windows of their own
   for (DisplayCall& d : options.displays) {
     d.where = {};

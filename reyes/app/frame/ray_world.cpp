@@ -10,7 +10,7 @@ namespace tomales {
 
 namespace {
 
-/// Tests whether the groups of two scenes are the same: else points of a group would be shaded as another object's.
+/// Tests whether the groups of two scenes are the same. If not, points of a group would be shaded as another object's.
 bool sameGroups(const Scene& a, const Scene& b) {
   const auto alike = [](const ShadeGroup& x, const ShadeGroup& y) {
     return x.cameraFromObject == y.cameraFromObject && x.primvars.size() == y.primvars.size() &&
@@ -20,7 +20,7 @@ bool sameGroups(const Scene& a, const Scene& b) {
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), alike);
 }
 
-/// Tells whether attributes differ at most in what shading alone reads.
+/// Tells whether attributes differ only in members that nothing but shading reads.
 bool sameForRays(const Attributes& a, const Attributes& b) {
   Attributes x = a, y = b;
   for (Attributes* each : {&x, &y}) {
@@ -31,7 +31,7 @@ bool sameForRays(const Attributes& a, const Attributes& b) {
   return x == y;
 }
 
-/// Gives a scene the lights of another, and what their shaders may ask for.
+/// Gives a scene the lights of another, and the data that their shaders may ask for.
 void takeLights(Scene& scene, const Scene& from) {
   scene.lights = from.lights;
   scene.worldFromNamed = from.worldFromNamed;
@@ -44,7 +44,7 @@ RayGeometry::RayGeometry(Scene scene, ShaderRegistry& shaders, const RenderSetti
                          const ShadeServices* services, Stats& stats, Log& log)
     : scene_(std::move(scene)), camera_(scene_.options), lights_(scene_.lights) {
   for (const ShadeGroup& group : scene_.groups) attributes_.push_back(group.attributes);
-  // It stays bound to these attributes and lights.
+  // This shading stays bound to the present attributes and lights.
   first_ = std::make_unique<ShadingSystem>(scene_, shaders, services, log, stats);
   chooseDisplacements(scene_, camera_, *first_, log);
   rays_ = std::make_unique<RayScene>(scene_, camera_, *first_, raySettings(settings, scene_.options), stats, log);

@@ -1,5 +1,5 @@
-// The geometry behind a shot, for rays: it is read again from the RIB when a ray is first wanted, which for most
-// re-shading is never.
+// The geometry behind a shot, for rays. It is read again from the RIB when a ray is first wanted; most re-shading never
+// wants one.
 #pragma once
 #include <mutex>
 
@@ -17,8 +17,8 @@ class RayGeometry {
               Stats& stats, Log& log);
   ~RayGeometry();
 
-  /// Takes the shaders, colours and lights of another edit of the same shot. Returns false if rays would see the
-  /// geometry itself otherwise under them; it has then to be read anew.
+  /// Takes the shaders, colours and lights of another edit of the same shot. Returns false if the edit changes the
+  /// geometry that rays see, which then has to be read again.
   bool dressAs(const Shot& shot, ShaderRegistry& shaders, const ShadeServices* services, Stats& stats, Log& log);
   const RayTools& tools() const { return tools_; }
 
@@ -33,7 +33,7 @@ class RayGeometry {
   RayTools tools_;
 };
 
-/// The parts that one shading of a shot leaves for the next: both use the same registry of shaders. Its geometry may be
+/// The parts that one shading of a shot leaves for the next, which uses the same registry of shaders. `geometry` may be
 /// null.
 struct KeptGeometry {
   std::unique_ptr<ShaderRegistry> shaders;

@@ -18,7 +18,7 @@
 namespace tomales {
 namespace {
 
-/// Memory for a pixel of a shaded tile at shading rate 1, without its points and variables.
+/// Memory in bytes for a pixel of a shaded tile at shading rate 1, without its points and variables.
 constexpr int64_t kBytesOfTilePixel = 64;
 constexpr int64_t kBytesOfPoints = 192;  ///< Memory for its points at shading rate 1.
 constexpr int64_t kBytesOfBucket = 96;   ///< Memory for each bucket's place in lists.
@@ -48,8 +48,8 @@ bool fitsMemory(const Scene& scene, const DeepFrame& layout, Log& log) {
   return false;
 }
 
-/// Returns the memory for hidden buckets: what --memory-limit leaves beside what is in memory now, not counting `held`
-/// bytes of buckets, and beside the size that caches may grow to.
+/// Returns the memory for hidden buckets: --memory-limit minus the present memory, not counting `held` bytes of
+/// buckets, and minus the size that caches may grow to.
 int64_t tileBudget(const RenderSettings& settings, int64_t held) {
   if (!settings.resources.memoryLimit) return kUsualLimit;
   const int64_t caches =
@@ -93,7 +93,7 @@ bool useIrradiance(const Scene& scene, const RenderSettings& settings, FrameJob&
 
 /// Tells whether rows of the picture may be written before the last bucket is hidden.
 bool mayWriteEarly(const Scene& scene, const RenderSettings& settings, bool gathers, int64_t budget_bytes) {
-  // An audit looks at all rows before the first one is written, because the pictures' headers tell what it has found.
+  // An audit looks at all rows before the first one is written, because its result goes into the pictures' headers.
   if (gathers || settings.quality.audits() || settings.quality.chooses()) return false;
   const bool large = pixelsOf(scene) * (bytesOfTilePixel(scene) + kBytesOfPoints) > budget_bytes;
   // A preview wants the first rows first.
@@ -108,7 +108,7 @@ bool renderInStages(FrameJob& job, const DeepFrame& layout, BucketFile& file, co
                     bool given, int64_t budget_bytes, const std::function<void()>& afterStage) {
   const RenderSettings& settings = job.settings();
   const bool isLimited = settings.resources.memoryLimit.has_value();
-  // The geometry that rays will meet needs room too, and nobody knows yet how much.
+  // The geometry that rays will meet needs an unknown amount of memory too.
   TileStore store(layout.tileCount(), isLimited && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
   const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
   const TileSink sink{{},

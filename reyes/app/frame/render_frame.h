@@ -1,4 +1,4 @@
-// `tomales render` for one frame: the stages in one process, within the memory that it may take.
+// `tomales render` for one frame: runs the stages in one process, within its memory limit.
 #pragma once
 #include "reyes/app/settings.h"
 #include "reyes/base/stats.h"

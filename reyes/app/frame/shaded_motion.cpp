@@ -8,9 +8,9 @@
 namespace tomales {
 namespace {
 
-constexpr int kAcross = 8;     ///< Points along each edge of a patch, all in all over the patches of an object.
-constexpr float kOff = 0.15f;  ///< Mean relative error that is told.
-/// Greatest product of the numbers of lights and of groups that are looked at: a warning may not cost as much as a
+constexpr int kAcross = 8;     ///< Points along each edge of an object's patches, all patches together.
+constexpr float kOff = 0.15f;  ///< Mean relative error that is reported.
+/// Limit of the number of lights times the number of groups that are examined: a warning must not cost as much as a
 /// frame.
 constexpr size_t kMostPairs = 4096;
 
@@ -22,8 +22,8 @@ class MovedLight {
  public:
   MovedLight(const RayScene& rays, const ShadingSystem& shading) : rays_(rays), shading_(shading) {}
 
-  /// Returns how much the light differs between the two ends of the way, as a share of its mean. The picture shows the
-  /// light at the first end, so on average it is off by half of that.
+  /// Returns the relative difference of the light between the two ends of the motion. The picture shows the light at
+  /// the first end, so its mean error is half of that.
   float change(const LightList& lights, const std::vector<Place>& first, const std::vector<Place>& last) const {
     std::vector<float> a(first.size(), 0), b(first.size(), 0);
     for (const int l : lights) {
@@ -39,7 +39,7 @@ class MovedLight {
   }
 
  private:
-  /// Adds E/pi of a light that has a place or a direction, and what ambient light there is beside it.
+  /// Adds E/pi of a light with a place or a direction, or the colour of an ambient light.
   void add(int light, const std::vector<Place>& places, std::vector<float>& out) const {
     const LightKind kind = shading_.light(light).kind();
     const bool isAmbient = kind == LightKind::Ambient;
@@ -60,7 +60,7 @@ class MovedLight {
     }
   }
 
-  /// Gives each place a point in the middle of an emitter, and its density over solid angle.
+  /// Sets for each place a point in the middle of the emitter, and its density over solid angle.
   bool onEmitter(int light, LightProbe& probe, std::vector<float>& pdf) const {
     const size_t n = probe.P.size();
     std::vector<float> from[3], P[3], N[3], middle(n, 0.5f), met(n);
@@ -113,7 +113,7 @@ std::vector<const ShadeGroup*> movingGroups(const Scene& scene) {
   return out;
 }
 
-/// Returns the pixel of the first of these places that is in the picture; none if none is.
+/// Returns the pixel of the first of these places that is in the picture; nothing if none is.
 std::optional<vec2> pixelOf(const std::vector<Place>& places, const Camera& camera) {
   for (const Place& p : places)
     if (camera.seeable(p.P))
@@ -148,8 +148,8 @@ void warnOfShadedMotion(const RayScene& rays, const Camera& camera, const Shadin
   if (!worst) return;
   log.report(
       Severity::Warning, "motion-light", worst->where,
-      fmt::format("{}: light on it changes by {:.0f} % as it moves, and all of its blur, as at pixel {:.0f},{:.0f}, "
-                  "has that of shutter open; parts are off by half as much: shorten Shutter, or "
+      fmt::format("{}: light on it changes by {:.0f} % as it moves, but its whole blur, as at pixel {:.0f},{:.0f}, has "
+                  "the light of shutter open, so that parts err by half of this: shorten Shutter, or "
                   "render parts of it and average the pictures",
                   objectName(*worst), 100 * most, pixel.x, pixel.y));
 }

@@ -1,4 +1,4 @@
-// Warns where motion changes the light on what moves: a micropolygon is shaded once, where it is when the shutter
+// Warns where motion changes the light on a moving object: a micropolygon is shaded once, where it is when the shutter
 // opens (docs/decisions/0031).
 #pragma once
 #include "raytrace/trace.h"

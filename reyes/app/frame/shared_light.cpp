@@ -13,7 +13,7 @@ bool makesMaps(const GiMethod& method) {
   return !method.byPointClouds && (method.mode == GiMode::Atlas || method.mode == GiMode::Radiosity);
 }
 
-/// Returns the method of a frame as its lights alone tell it: the rest of the scene takes longer to open and to bind.
+/// Returns the method of a frame from its lights alone, because the rest of the scene takes longer to open and to bind.
 const GiMethod& methodOfLights(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
   const Scene lights = scene.withoutObjects();
   Stats stats;
@@ -32,7 +32,7 @@ void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings
   if (atlasFolder(settings, job.shading()).empty())
     return log.report(Severity::Error, "prepare-folder", scene.where,
                       "no folder is named for the maps: give --atlas FOLDER");
-  job.setShares(0, 2);  // maps of light are all there is
+  job.setShares(0, 2);  // nothing but maps of light is made
   job.prepareRays();
   const RayTools tools = *job.rayTools();
   if (pass)

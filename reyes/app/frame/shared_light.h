@@ -1,5 +1,5 @@
-// The maps of light that frames share, made apart from them: by one process, or in parts by several. Threads: uses the
-// pool.
+// Makes the maps of light that frames share before the frames: in one process, or in parts by several. Threads: uses
+// the pool.
 #pragma once
 #include <filesystem>
 
@@ -23,7 +23,7 @@ struct SharedLight {
 /// Returns nothing if the frame makes no maps that others could use. It opens what rays may meet.
 std::optional<SharedLight> sharedLightOf(Scene& scene, const RenderSettings& settings, Log& log);
 
-/// Returns the brick map of that name, and what else it is made with.
+/// Returns the file of the brick map of that name, and the other files that are made with it.
 std::vector<std::string> filesOfMap(const SharedLight& light, const std::string& folder, const std::string& map);
 std::string photonsOfMap(const std::string& folder, const std::string& map);
 

@@ -264,7 +264,7 @@ void ShotJob::gatherIrradiance() {
   const std::vector<uint32_t> asked = tilesOf(shot_.frame, shot_.scene.options);
   const std::set<uint32_t> inCrop(asked.begin(), asked.end());
   job_->setShares(0, 0.8f);
-  // Points outside the crop that have lost records, because those of the crop reached there, are gathered too.
+  // Points outside of the crop whose records were dropped, because records of the crop reached there, are gathered too.
   FrameLight(*job_, shot_.frame, [&](size_t index) {
     return files_->hasIrradiance() || inCrop.contains(static_cast<uint32_t>(index)) ? read(index) : nullptr;
   }).gather();

@@ -28,9 +28,9 @@ class ShotJob {
   /// Prepares for show(): the picture is R G B A Z, and what `more` names as DisplayCall::mode does; it goes to no
   /// file.
   void prepareToShow(const std::string& more = "");
-  /// Chooses what show() shows from now on: the light of one group alone with all that it bounces, or of all lights if
-  /// `lights` is null. Records without shares cannot tell what a group bounces: then it is the group's direct light,
-  /// and the bounced light of all lights if `indirect`. `lights` must outlive that.
+  /// Chooses what show() shows from now on: the direct and bounced light of one group alone, or of all lights if
+  /// `lights` is null. Records without shares do not know what a group bounces: then it shows the group's direct light
+  /// and, if `indirect`, the bounced light of all lights. `lights` must outlive those calls.
   void choose(const std::string* lights, bool indirect);
   /// Shades tiles that are no picture as show() would.
   void shadeApart(std::span<DeepTile> tiles);
@@ -52,12 +52,12 @@ class ShotJob {
   std::unique_ptr<Checkpoint> keptGather() const;
   /// Warns of edits that change bounced light, which records keep as it was when they were gathered.
   void warnOfStaleLight() const;
-  /// Drops the records gathered before where --crop asks for new ones.
+  /// Drops given records where --crop asks for new ones.
   void dropRecordsOfCrop(std::vector<PreparedCache>& caches) const;
-  /// Brings given records to the strength of edited lights, so that they can stand beside new ones.
+  /// Scales given records to the edited strength of lights, so that they fit beside new ones.
   void takeEdits(std::vector<PreparedCache>& caches) const;
-  /// Returns the lights that records will be known to be made by. Where an edit changes more than the strength of a
-  /// light, it is the light by which the given records were made, so that they stay known to be stale.
+  /// Returns the lights that are stored with the records as those that made them. Where an edit changes more than the
+  /// strength of a light, this is the light that made the given records, so that they still count as stale.
   std::vector<std::shared_ptr<LightCall>> lightsOfRecords() const;
   /// Copies the answers of buckets that --crop leaves as they were.
   bool copyAnswers(const std::set<uint32_t>& except, IcfWriter& out);

@@ -1,5 +1,5 @@
-// The files that a shot is shaded from: a .dfb, and an .icf if one is given; and what has been loaded besides. Several
-// edits of the shot may use them, one after the other.
+// The files that a shot is shaded from: a .dfb, and an .icf if one is given. It also keeps shaders and geometry once
+// they are loaded. Several edits of the shot may use them, one after the other.
 #pragma once
 #include "gi/icf.h"
 #include "reyes/app/frame/ray_world.h"
@@ -21,11 +21,11 @@ class ShotFiles {
   /// Pre: hasIrradiance(). Its caches are lent to one shading of the shot at a time.
   IrradianceShot& irradiance() { return irradiance_; }
   const IrradianceShot& irradiance() const { return irradiance_; }
-  /// Names the records and their settings; 0 without an .icf.
+  /// Returns a checksum of the records and their settings; 0 without an .icf.
   uint64_t irradianceSum() const { return icf_ ? icf_->sum() : 0; }
-  /// Tells whether the .icf was gathered for this shot: its answers of rays, if it has any, are true then.
+  /// Tells whether the .icf was gathered for this shot. Only then are its answers of rays, if it has any, valid.
   bool isOfShot() const { return icf_ && irradiance_.shot == dfb_->shotSum(); }
-  /// Null: they are damaged, which `error` explains. Pre: isOfShot().
+  /// Returns nothing if they are damaged, which `error` explains. Pre: isOfShot().
   std::optional<std::vector<RayAnswers>> answers(size_t tile, std::string& error) const {
     return icf_->answers(tile, error);
   }

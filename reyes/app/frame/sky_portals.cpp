@@ -7,8 +7,8 @@
 namespace tomales {
 namespace {
 
-/// Ratio of the edges of a portal to those of its opening. A strip of an opening that is left out makes specks, where
-/// samples beside it only make noise.
+/// Ratio of the edges of a portal to those of its opening. A strip of an opening outside of the portal makes specks;
+/// samples beside the opening only make noise.
 constexpr float kWider = 1.04f;
 
 /// Returns the first light that takes openings; null if there is none.

@@ -15,13 +15,14 @@ namespace tomales {
 namespace {
 
 constexpr int kMostAttempts = 3;
-constexpr double kMargin = 0.9;  ///< Share of the target that is aimed at: some pictures err more than a model says.
-/// Errors below this share of the target need not be told from the noise of an audit.
+constexpr double kMargin = 0.9;  ///< Share of the target to aim at: some pictures have larger errors than predicted.
+/// Errors below this share of the target may be hidden by the noise of an audit.
 constexpr double kMatters = 0.7;
-/// Trials for this target and finer ones have all rays, and fewer in proportion for others, to a limit.
+/// Trials have all their rays for this target and finer ones. For coarser targets, they have fewer in proportion, down
+/// to one in kFewestInTrials.
 constexpr double kFinestTarget = 0.01;
 constexpr int kFewestInTrials = 4;
-constexpr double kTolerance = 1.1;  ///< A picture that errs by so many times the target is lit again.
+constexpr double kTolerance = 1.1;  ///< A picture is lit again if its error is this many times the target.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
   return {settings.targetError, settings.targetSmudges > 0 ? settings.targetSmudges : settings.targetError};
@@ -73,7 +74,7 @@ class TargetSearch {
       const AuditReport report =
           light_.audit(hashCombine(seedOfTrials(settings_), static_cast<uint32_t>(attempt)), target_ * kMatters);
       if (stopRequested()) return;
-      // More rays in the picture do not quieten the audit.
+      // More rays in the picture do not reduce the noise of the audit.
       const QualityTrial errors = believedErrors(model, quality, report);
       const bool isNear = errorIsNear(report, target_) && !smudgesAreFar(report, target_) &&
                           errors.smudges <= kTolerance * target_.smudges;
@@ -160,17 +161,18 @@ void tellMissed(const AuditReport& report, const QualitySettings& settings, cons
   const ErrorTarget target = targetOf(settings);
   const ErrorEstimate& error = report.picture;
   if (!error.tells() && error.noise > target.error)
-    log.report(Severity::Warning, "target-unproved", {},
-               fmt::format("a mean error of {:.3g} % was asked, and the audit's own noise of {:.2g} % hides whether it "
-                           "is reached, with {}",
-                           100 * target.error, 100 * error.noise, with));
+    log.report(
+        Severity::Warning, "target-unproved", {},
+        fmt::format("a mean error of {:.3g} % was asked for, and the audit's own noise of {:.2g} % hides whether it "
+                    "is reached, with {}",
+                    100 * target.error, 100 * error.noise, with));
   std::string missed;
   if (!errorIsNear(report, target))
-    missed = fmt::format("a mean error of {:.3g} % was asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
+    missed = fmt::format("a mean error of {:.3g} % was asked for, and {:.2g} % ({:.2g} to {:.2g}) was reached",
                          100 * target.error, 100 * error.mean, 100 * error.low, 100 * error.high);
   if (const SmudgeEstimate* s = report.finestSmudges(); smudgesAreFar(report, target))
     missed +=
-        fmt::format("{}smudges of {:.3g} % were asked, and {:.2g} % ({:.2g} to {:.2g}) reached",
+        fmt::format("{}smudges of {:.3g} % were asked for, and {:.2g} % ({:.2g} to {:.2g}) were reached",
                     missed.empty() ? "" : "; ", 100 * target.smudges, 100 * s->deviation, 100 * s->low, 100 * s->high);
   if (!missed.empty()) log.report(Severity::Warning, "target-missed", {}, fmt::format("{}, with {}", missed, with));
 }

@@ -16,7 +16,8 @@ uint32_t seedOfTrials(const RenderSettings& settings);
 /// Returns the chosen quality in words, for messages.
 std::string wordsFor(const LightQuality& quality);
 
-/// Warns where a picture errs more than was asked, or where nobody can tell. `with`: the settings that it has.
+/// Warns if the error of a picture is larger than was asked, or if the audit cannot tell. `with`: the settings of the
+/// picture.
 void tellMissed(const AuditReport& report, const QualitySettings& settings, const std::string& with, Log& log);
 
 }  // namespace tomales

@@ -13,21 +13,20 @@ namespace tomales {
 namespace {
 
 constexpr double kShareToPlan = 0.96;  ///< Share of the time left that is planned.
-/// Share of the time left that a trial of narrow records, the first round, and shading that only measures may take.
+/// Shares of the time left that a trial of narrow records, the first round, and shading for measurement may take.
 constexpr double kShareOfNarrowTrial = 0.1, kShareOfFirstRound = 0.15, kShareOfMeasuring = 0.2;
-/// The first round, and shading that only measures, have so many times fewer rays.
+/// The first round, and shading for measurement, have this many times fewer rays.
 constexpr int kFewerInFirst = 8;
-constexpr int kLeastRays = 20;  ///< The first round has at least these.
+constexpr int kLeastRays = 20;  ///< Least number of rays of a record in the first round.
 constexpr int kMostRounds = 4;
 constexpr double kBetter = 0.95;      ///< Another round is worth it if the error falls to this share.
-constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if it falls to this share.
-/// A round has at most so many times the rays of the one before, which says what they cost.
+constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if the error falls to this share.
+/// A round has at most this many times the rays of the one before, from which the cost of rays is known.
 constexpr int kMostGrowth = 12;
 constexpr double kShareOfProbe = 0.12;    ///< Share of the time left that a probe may take.
-constexpr size_t kBucketsOfProbe = 16;    ///< One bucket of so many tells what more rays cost.
+constexpr size_t kBucketsOfProbe = 16;    ///< One bucket in this many is probed for the cost of more rays.
 constexpr int kLightSamplesOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
-/// Lamps lose no more of their planned samples where gathering was late: a picture that is late too is better than
-/// noise.
+/// Limit of the factor by which light samples are cut when gathering was late: a late picture is better than noise.
 constexpr int kMostCutOfLights = 4;
 constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
 constexpr int kFewerInBriefTrials = 4;
@@ -78,8 +77,8 @@ class BudgetedFrame {
     job_.setQuality(quality);
   }
 
-  /// Gathers in rounds. Only the whole frame tells how many records it needs, and what those of further bounces cost.
-  /// So the first round has few rays, and the rounds after it the time that is left.
+  /// Gathers in rounds. Only the whole frame shows how many records it needs, and what records of further bounces cost.
+  /// So the first round has few rays, and later rounds use the time that is left.
   void gatherInRounds() {
     ErrorModel& model = trials_.model;
     LightQuality next = firstRound();
@@ -105,7 +104,8 @@ class BudgetedFrame {
     light_.endGather();
   }
 
-  /// Records of other widths are more or fewer, which costs what the rounds have learnt.
+  /// Returns the best quality after a round. Another width of records changes their number, so the measured costs no
+  /// longer hold.
   LightQuality bestAfter(const LightQuality& last, double left) const {
     const LightQuality any = trials_.model.best(left), asWide = trials_.model.bestAsWide(last, left);
     const bool fills = trials_.model.cost(asWide) > kBetter * left;
@@ -132,7 +132,8 @@ class BudgetedFrame {
     return many.samples >= 2 * quality_.samples && cost < kShareOfProbe * left;
   }
 
-  /// A ray of many costs less than one of few, and how much less depends on what it meets. A few buckets tell.
+  /// Learns the cost of rays from a few buckets: the cost per ray falls with their number, by a factor that depends on
+  /// the scene.
   void learnRays(int fewer, const LightQuality& many) {
     LightQuality few = many;
     few.samples = fewer;
@@ -155,7 +156,7 @@ class BudgetedFrame {
                                                                       : trials_.model.best(kShareOfFirstRound * left);
   }
 
-  /// Shades the whole frame with few samples, where that tells for little what shading it with more will take.
+  /// Shades the whole frame with few samples, if that is a cheap way to learn the cost of shading it with more.
   void measureShading() {
     const double left = std::max(0.0, left_s());
     const LightQuality planned = job_.gathers() ? trials_.model.bestLightSamples(quality_, left) : quality_;

@@ -22,18 +22,18 @@ namespace {
 constexpr LightQuality kBaseOfRecords{150, 1, 4}, kFinerRecords{600, 1, 16}, kWiderRecords{150, 2, 4};
 constexpr LightQuality kBaseOfPaths{16, -1, 0}, kFinerPaths{64, -1, 0};
 constexpr LightQuality kBaseOfLights{0, -1, 4}, kFinerLights{0, -1, 16};
-/// One bucket of so many is tried, and no fewer than so many.
+/// One bucket in kBucketsPerTrial is tried, but at least kFewestBuckets.
 constexpr size_t kBucketsPerTrial = 40, kFewestBuckets = 16;
 constexpr size_t kPixelsOfBriefTrials = 100;
-/// Paths at each point whose light stands in for that of records where only the error of lamps is asked. That error is
-/// a share of all light.
+/// Where only the error of lamps is wanted, as a share of all light, this many paths at each point find the indirect
+/// light.
 constexpr int kPathsBesideLamps = 16;
-constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Larger blocks than the least lie in several buckets.
+constexpr size_t kSmudgeSizesOfTrials = 1;  ///< Blocks larger than the smallest lie in several buckets.
 /// Records with a maxError below this share of the base's count as much narrower.
 constexpr float kMuchNarrower = 1 / 1.5f;
 
-/// Numbers, in order, of some of these buckets, which are spread over the picture: one of each of equal pieces of
-/// Morton's curve, chosen by a hash of its place.
+/// Returns some of these buckets in order. They are spread over the picture: each equal piece of Morton's curve has
+/// one, which a hash of its place chooses.
 std::vector<size_t> someOf(const std::vector<size_t>& seen, const DeepFrame& layout, uint32_t seed) {
   std::vector<vec3> places;
   for (const size_t t : seen) {
@@ -134,7 +134,7 @@ class Trials {
     return trialOf(quality);
   }
 
-  /// Buckets of the frame for each that is tried.
+  /// Returns the number of buckets of the frame for each that is tried.
   double inFrame() const {
     return static_cast<double>(seen_.size()) / std::max<double>(1, static_cast<double>(some_.size()));
   }
@@ -161,8 +161,8 @@ class Trials {
     if (const SmudgeEstimate* smudges = report.finestSmudges()) out.smudges = smudges->deviation;
   }
 
-  /// Returns the cost of shading. Neighbouring pixels share points, so that pixels alone cost more. The time of small
-  /// pieces says little of the time of whole buckets, and pixels say more of their rays.
+  /// Returns the cost of shading. Single pixels cost more than whole buckets, where neighbours share points. Time is
+  /// measured on whole buckets, because small pieces say little about it; rays are counted at the audit's pixels.
   double shadeCost() {
     double all = 0, some = 0;
     for (const auto& [tile, points] : points_) all += points;

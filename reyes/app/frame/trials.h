@@ -1,4 +1,4 @@
-// Trials in a few buckets of a frame: what error its light has with some settings, and what it costs.
+// Trials in a few buckets of a frame, which measure the error and the cost of its light under some settings.
 #pragma once
 #include <limits>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// Rays are the same in every run, seconds are those of this machine now.
+/// The number of rays is the same in every run; seconds depend on the machine and its load.
 enum class CostUnit { Rays, Seconds };
 
 struct TrialSettings {
@@ -20,7 +20,7 @@ struct TrialSettings {
   ErrorTarget matters{};  ///< Errors that are smaller need not be known; 0: all matter.
   uint32_t seed = 0;      ///< Decides which buckets and pixels.
   /// Returns the quality that would be chosen from the first trials. If its records are much narrower than those of the
-  /// trials, a trial of such records follows, because wide records do not tell how many narrow ones there are. The
+  /// trials, a trial of such records follows, because wide records do not show how many narrow ones a frame needs. The
   /// trial is left out if it is likely to cost more than mostOfNarrow().
   std::function<LightQuality(const ErrorModel&)> likely;
   std::function<double()> mostOfNarrow = [] { return std::numeric_limits<double>::infinity(); };
@@ -33,13 +33,13 @@ struct TrialsResult {
   double audit_s = 0;         ///< Time that an audit of the frame may take.
   double raysPerSecond = 0;   ///< Rays per second on this machine now, for messages alone.
 
-  /// Returns in words how long so many rays take.
+  /// Returns in words how long this many rays take.
   std::string timeOf(double rays) const;
 };
 
 /// Gathers in these buckets alone, and returns the wall time that it took as the costs of the trial.
 QualityTrial secondsToGather(const FrameLight& light, std::span<const size_t> which, const LightQuality& quality);
-/// Shades these tiles as the picture will be, forgets them, and returns the wall time that it took.
+/// Shades these tiles as for the picture, forgets them, and returns the wall time that it took.
 double secondsToShade(const FrameLight& light, std::span<const size_t> which);
 
 /// Lights and audits the buckets two to four times. The gathered records stay with the job until its next setQuality().

@@ -10,7 +10,7 @@ namespace tomales {
 class TurnsTimer {
  public:
   TurnsTimer(Stats& stats, const char* first, const char* second) : stats_(stats), first_(first), second_(second) {}
-  /// Divides its time in the ratio of the times that threads spent on each.
+  /// Divides its wall and CPU time between the stages, in the ratio of the CPU times that threads spent on each.
   ~TurnsTimer() {
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double cpu = processCpuSeconds() - cpuStart_;

@@ -48,7 +48,7 @@ std::string requestsOf(const EditState& state, const std::string& object, const 
   return fmt::format("Attribute \"identifier\" \"name\" [{}]\n", quoted(object)) + out;
 }
 
-/// Takes the requests of an edit file as JSON, which is then checked like that of a page.
+/// Converts the requests of an edit file to JSON, which is then checked like the JSON of a page.
 class StateReader : public RiSink {
  public:
   StateReader(const Editable& editable, Json& json) : editable_(editable), json_(json) {}
@@ -67,7 +67,7 @@ class StateReader : public RiSink {
       if (r.name == "Illuminate")
         return void(json_["objects"][*object_]["lights"][r.args[0].strings[0]] = r.args[1].number() != 0);
     }
-    throw BadRequest(fmt::format("line {}: {}{} is more than this page changes", r.where.line, r.name,
+    throw BadRequest(fmt::format("line {}: this page cannot change {}{}", r.where.line, r.name,
                                  object_ ? "" : " without the name of an object"));
   }
 

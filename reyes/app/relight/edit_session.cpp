@@ -3,8 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Tells whether light may add up on other surfaces under one edit than under the other. Parameters of a light change
-/// what arrives, and not what a surface makes of it.
+/// Tells whether the surfaces on which light adds up may differ between the two edits. Parameters of a light change
+/// incident light, and not how a surface reflects it.
 bool mayBeLinearElsewhere(const EditState& a, const EditState& b) {
   const auto lights = [](const EditState& s) {
     std::map<std::string, std::string> out;

@@ -1,6 +1,6 @@
-// What pages and the thread that shades share of a relighting: the layers with the present edit, the order of work, the
-// running step, and what has been found. An edit that makes the running step useless ends it. It owns the one lock of
-// all that. Threads: any.
+// The state of a relighting that pages and the shading thread share: the layers with the present edit, the order of
+// work, the running step, and the results. An edit that makes the running step useless ends it. One lock of this class
+// guards all of it. Threads: any.
 #pragma once
 #include <condition_variable>
 
@@ -27,7 +27,7 @@ class EditSession {
   std::string gatheredFile() const;
   /// Returns the layers but the last, by name and lights.
   Json layers() const;
-  /// Its "imager" tells whether the present edit changes an imager.
+  /// The member "imager" tells whether the present edit changes an imager.
   Json status() const;
   /// Calls `use`, with no edit meanwhile, if all parts of the layer show the present edit.
   void ifShown(size_t layer, const std::function<void()>& use) const;
@@ -35,7 +35,8 @@ class EditSession {
   // For the thread that shades.
   /// Returns the next step, which runs until finish(); nothing if all is done, or after end().
   std::optional<WorkStep> begin();
-  /// Ends the running step, which is done unless it was stopped. Returns true if its layer has no old parts any more.
+  /// Ends the running step, which counts as done unless it was stopped. Returns true if its layer has no outdated parts
+  /// any more.
   bool finish();
   /// Waits, after begin() has returned nothing, until a page has asked for something or end() is called.
   void wait();
@@ -50,7 +51,7 @@ class EditSession {
   void setNotLinear(std::vector<std::string> names);
   /// Calls `show` to show a coarse layer, unless the running step was stopped.
   void takeCoarse(size_t layer, const std::function<void()>& show);
-  /// Notes that pixels were gathered: nothing that has been shaded counts any more.
+  /// Notes that pixels were gathered, which makes everything that has been shaded outdated.
   void takeGathered(const std::string& file, const PixelRect& pixels);
 
   /// Stops the running step; no other begins.

@@ -1,5 +1,5 @@
-// The changes that a page has made to a shot. They are checked against what may be changed before anything is made of
-// them, and become an edit file of `tomales shade --edit`. Threads: plain values.
+// The changes that a page has made to a shot. They are first checked against what may be changed, and then become an
+// edit file of `tomales shade --edit`. Threads: plain values.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,7 +22,7 @@ struct Watches : std::runtime_error {
 };
 
 struct ShaderEdit {
-  std::string shader{};  ///< Name of the shader in the place of the scene's; empty if that stays.
+  std::string shader{};  ///< Name of the shader that replaces the scene's; empty if that stays.
   std::map<std::string, ParamValue> params{};
   bool operator==(const ShaderEdit&) const = default;
 };
@@ -45,7 +45,7 @@ struct EditState {
 const EditableShader& shaderUnder(const EditState& state, ShaderSlot slot, const std::string& owner,
                                   const Editable& editable);
 
-/// Throws BadRequest if it names what cannot be changed, or if a value does not fit.
+/// Throws BadRequest if it names something that cannot be changed, or if a value does not fit.
 EditState stateOf(const Json& json, const Editable& editable);
 Json jsonOf(const EditState& state);
 Json jsonOf(const ParamValue& value);

@@ -104,7 +104,8 @@ EditableShader Editable::describe(const std::string& owner, const ShaderCall& ca
   for (int i = 0; i < shader->paramCount; ++i)
     if (auto param = paramOf(shader->params[i], roleOf(*shader, shader->params[i]), call.params))
       out.params.push_back(std::move(*param));
-  // Lights have them whether they are declared or not; only the lights of RISpec's that cast shadows have more maps.
+  // Lights have these parameters even if they do not declare them. Only the shadow-casting lights of RISpec have
+  // further maps.
   for (const TmParamDecl& decl : standardParams(kind))
     if (!out.param(decl.name) && !std::string_view(decl.name).starts_with("sf"))
       if (auto param = paramOf(decl, static_cast<TmRole>(decl.role), call.params))
@@ -132,7 +133,7 @@ std::vector<std::string> Editable::offered(ShaderSlot slot) const {
   for (const std::string& folder : registry_.textFolders(searchPath_, beside_))
     for (const std::string& name : namesIn(folder, ".sl"))
       if (seemsToHave(fs::path(folder) / (name + ".sl"), kind, name)) out.insert(name);
-  // A plugin tells its shaders only when it is loaded.
+  // The shaders of a plugin are known only when it is loaded.
   for (const std::string& folder : foldersOf(pluginFolders_)) out.merge(namesIn(folder, ".so"));
   return {out.begin(), out.end()};
 }

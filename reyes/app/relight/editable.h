@@ -29,7 +29,7 @@ struct EditableParam {
 struct EditableShader {
   std::string owner;   ///< The light's handle, the objects' name, or kImager; empty where a shader is only offered.
   std::string shader;  ///< Empty if it has none.
-  mat4 worldFromShader{1.0f};  ///< Points among the parameters are given in its space, here when the shutter opens.
+  mat4 worldFromShader{1.0f};  ///< Parameters that are points are in this shader space, taken when the shutter opens.
   std::vector<EditableParam> params{};
   /// The parameter that names the light's group, as RIB writes it. Another shader in the light's place gets it too,
   /// since each group is a layer.
@@ -57,7 +57,7 @@ inline constexpr ShaderSlotInfo kSlots[kShaderSlots] = {{"lights", "LightSource"
                                                         {"atmospheres", "Atmosphere", TM_VOLUME, "object"},
                                                         {"imagers", "Imager", TM_IMAGER, "picture"}};
 constexpr const char* kImager = "imager";  ///< The owner of the imager shader.
-constexpr const char* kNoShader = "null";  ///< Taken for the name of a shader of the air, it leaves that clear.
+constexpr const char* kNoShader = "null";  ///< As the name of an atmosphere's shader, it removes the atmosphere.
 
 class Editable {
  public:

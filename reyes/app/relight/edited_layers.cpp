@@ -3,13 +3,14 @@
 namespace tomales {
 namespace {
 
-/// Tells whether the page mixes the layer by the factor of this light. Lights of one layer may each have another.
+/// Tells whether the page mixes the layer by the factor of this light. It cannot if several lights, with different
+/// factors, share the layer.
 bool isMixed(const RelitLayer& layer, const std::string& handle) {
   return layer.handles.size() == 1 && layer.handles.front() == handle;
 }
 
-/// Returns a value for a parameter that only multiplies the light, at which all of the light can be seen: that of the
-/// scene unless a component is 0.
+/// Returns a value of a parameter that only multiplies the light, with which all of the light is visible: the scene's
+/// value unless a component is 0.
 std::vector<float> unitOf(const EditableParam& param) {
   std::vector<float> out = param.value.numbers;
   if (std::ranges::count(out, 0.0f) > 0) std::ranges::fill(out, 1.0f);
@@ -54,8 +55,8 @@ void EditedLayers::showVariable(std::string name) {
   wantPresent();
 }
 
-// The whole shows the present edit. The others show their lights in a strength that does not follow what only
-// multiplies them, so that each part of a layer, however old, is mixed by the same factor.
+// The whole picture shows the present edit. The other layers ignore changes of parameters that only multiply a light,
+// so that every part of a layer, however old, can be mixed by the same factor.
 EditState EditedLayers::editFor(size_t layer) const {
   if (!layers_[layer].lights) return present_;
   EditState out = present_;

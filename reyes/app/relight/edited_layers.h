@@ -1,5 +1,5 @@
-// The layers of a picture that is relit: whose light each of them is, and the edit that it shows while another is the
-// present one. Threads: plain object.
+// The layers of a picture that is relit: whose light each of them shows, and under which edit, which may not be the
+// present one yet. Threads: plain object.
 #pragma once
 #include "reyes/app/frame/shot.h"
 #include "reyes/app/relight/edit_state.h"
@@ -7,19 +7,20 @@
 
 namespace tomales {
 
-/// Numbers of layers: the whole picture, what shines by itself, and the first of the lights. The last is a variable.
+/// Indices of layers: the whole picture, the glow of surfaces and air by themselves, and the first group of lights. The
+/// last layer shows a variable.
 constexpr size_t kWhole = 0, kGlow = 1, kFirstLight = 2;
 
 struct RelitLayer {
   std::string name;
-  std::optional<std::string> lights;  ///< The group whose light it is, empty for none; not given: all.
+  std::optional<std::string> lights;  ///< The group whose light it shows; empty: no light; not given: all lights.
   bool indirect = true;
   std::vector<std::string> handles{};  ///< Names of the group's lights.
   LayerParts parts{};
   uint32_t coarse = 0;  ///< Number of the edit that its coarse picture shows.
 };
 
-/// Tells whether it is known which light has bounced.
+/// Tells whether the records know which light has bounced.
 bool sharesBounces(const ShotJob& job);
 std::vector<RelitLayer> layersOf(const ShotJob& job, size_t parts);
 
@@ -43,7 +44,7 @@ class EditedLayers {
 
   /// Returns the edit that a layer is shaded under.
   EditState editFor(size_t layer) const;
-  /// Returns what the light of a layer was multiplied by when it was shaded, as far as the page mixes it by a factor.
+  /// Returns the factor of a layer's light when it was shaded, if the page mixes that light by a factor.
   vec3 unitOf(size_t layer) const;
 
  private:

@@ -23,9 +23,9 @@ constexpr int kPatience_s = 5;
 /// Number of connections that may wait to be taken. With the library's 5, those of a page that loads its parts at once,
 /// or of a client that floods the port, are refused and tried again a second later.
 constexpr int kMostWaiting = 128;
-constexpr size_t kThreads = 16;  ///< Each page waits in one for news; others have to be answered meanwhile.
+constexpr size_t kThreads = 16;  ///< Each page occupies one while it waits for news; others answer requests.
 
-/// 128 bits of the system's random numbers.
+/// Returns 128 random bits of the system as text.
 std::string newToken() {
   std::random_device random;
   std::string out;
@@ -33,7 +33,7 @@ std::string newToken() {
   return out;
 }
 
-/// Takes as long whatever differs.
+/// Compares in a time that does not depend on where the texts differ.
 bool sameText(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -41,7 +41,7 @@ bool sameText(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
-/// Nothing of the page comes from elsewhere, or goes there.
+/// The page may neither load from other addresses nor send to them.
 const httplib::Headers kHeaders{{"Content-Security-Policy",
                                  "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
                                  "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
@@ -50,7 +50,7 @@ const httplib::Headers kHeaders{{"Content-Security-Policy",
                                 {"X-Content-Type-Options", "nosniff"},
                                 {"Cache-Control", "no-store"}};
 
-/// The rest of a rate. Threads: any.
+/// The requests that a rate still allows. Threads: any.
 class Allowance {
  public:
   explicit Allowance(const HttpRate& rate) : rate_(rate), left_(rate.burst) {}

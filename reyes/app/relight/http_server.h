@@ -1,6 +1,6 @@
 // A server of one page on the loopback address. It reads no file, and answers only requests of that page:
 //   path    begins with the token, so that nobody is answered who does not know it
-//   Host    is the address that the server listens on; else a name of somebody else could lead here (DNS rebinding)
+//   Host    is the address that the server listens on; otherwise a foreign host name could lead here (DNS rebinding)
 //   Origin  is the page's own, if there is one
 // Threads: handlers are called from several.
 #pragma once

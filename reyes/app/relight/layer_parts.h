@@ -12,7 +12,7 @@ class LayerParts {
  public:
   explicit LayerParts(size_t parts = 0) : held_(parts, 0) {}
 
-  /// Says by the text of an edit what all parts shall show.
+  /// Sets the edit, by its text, that all parts shall show.
   void want(const std::string& edit) {
     if (numbers_.size() > kMostKnown)
       std::erase_if(numbers_, [&](const auto& known) { return std::ranges::count(held_, known.second) == 0; });
@@ -27,7 +27,7 @@ class LayerParts {
   bool areOld() const { return old() > 0; }
   size_t old() const { return held_.size() - static_cast<size_t>(std::ranges::count(held_, wanted_)); }
   size_t count() const { return held_.size(); }
-  /// Returns the share of the parts that are to be shaded.
+  /// Returns the share of the parts that still have to be shaded.
   double shareOld() const { return static_cast<double>(old()) / static_cast<double>(count()); }
   void take(size_t part, uint32_t number) { held_[part] = number; }
   /// Says that all parts have been lost.

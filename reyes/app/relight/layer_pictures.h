@@ -1,6 +1,6 @@
-// The pictures of the layers: as pages get them, and the finished picture in full floats. What shines by itself is in
-// every layer that is shaded, and is subtracted from those of lights. Threads: store() and finished() may be called by
-// any; all else belongs to the thread that shades.
+// The pictures of the layers: as pages get them, and the finished picture in full floats. Every shaded layer contains
+// the light of glowing surfaces (kGlow), which is subtracted from the layers of lights. Threads: store() and finished()
+// may be called by any; all else belongs to the thread that shades.
 #pragma once
 #include "reyes/app/frame/shot.h"
 #include "reyes/app/relight/layers.h"
@@ -23,7 +23,7 @@ class LayerPictures {
 
   /// Takes rows of a step's part.
   void take(const WorkStep& step, const Image& rows, const ShotJob& job);
-  /// Subtracts what shines by itself from a coarse layer. Coarse colours of kGlow are taken for that.
+  /// Subtracts the glow from a coarse layer. Coarse colours of layer kGlow itself are kept for that.
   void subtractGlow(size_t layer, std::vector<vec3>& colors);
   void putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t version) { store_.putCoarse(layer, rgb, version); }
   void dropCoarse(size_t layer) { store_.dropCoarse(layer); }

@@ -4,7 +4,7 @@ namespace tomales {
 namespace {
 
 constexpr float kGains[] = {0.5f, 1.6f, 0.3f, 1.3f};
-constexpr float kHalfRounding = 4e-3f, kLeastDifference = 5e-4f;  ///< Several times that of half floats.
+constexpr float kHalfRounding = 4e-3f, kLeastDifference = 5e-4f;  ///< Several times the rounding of half floats.
 constexpr int kLeastPixels = 8;
 
 /// Multiplies the light of a handle. Returns false if it has no parameter for that.

@@ -1,4 +1,5 @@
-// The check that the layers, each by a gain, add up to the picture under lights of these gains. Threads: plain object.
+// Checks that the layers, each times a gain, add up to the picture under lights with these gains. Threads: plain
+// object.
 #pragma once
 #include "reyes/app/relight/edit_session.h"
 #include "reyes/app/relight/layer_pictures.h"
@@ -8,7 +9,7 @@ namespace tomales {
 
 class LayerSum {
  public:
-  /// Chooses gains for the lights of an edit. All others must outlive it.
+  /// Chooses gains for the lights of an edit. All arguments but `edit` must outlive this object.
   LayerSum(const EditState& edit, const EditSession& session, const LayerStore& layers, RelitShot& shot);
 
   /// Returns the edit with lights of these gains.

@@ -7,7 +7,7 @@ namespace tomales {
 namespace {
 
 constexpr float kLargestHalf = 65504;
-constexpr std::chrono::seconds kNewsWait{4};  ///< A page that hears nothing for so long asks again.
+constexpr std::chrono::seconds kNewsWait{4};  ///< Longest wait for news; the page then asks again.
 
 uint16_t halfOf(float x) {
   return glm::packHalf1x16(std::isnan(x) ? 0.0f : std::clamp(x, -kLargestHalf, kLargestHalf));

@@ -15,23 +15,23 @@ namespace tomales {
 /// colour for each square of `step` pixels, cut off at the right and below.
 constexpr size_t kBlockHeader = 8;
 
-/// The step of a coarse picture: it has one colour for each square of so many pixels.
+/// The step of a coarse picture, which has one colour for each square of this many pixels along an edge.
 constexpr int kCoarseStep = 16;
 
 class LayerStore {
  public:
-  /// window: the pixels of the picture, of which (0, 0) of a block is the first.
+  /// window: the pixels of the picture. Blocks count from its first pixel.
   LayerStore(const PixelRect& window, size_t layers);
 
-  /// Sets a part of a layer. `rgb`: the floats of its pixels; what half floats cannot hold becomes the nearest that
-  /// they can.
+  /// Sets a part of a layer. `rgb`: the floats of its pixels; values beyond half floats become the nearest half float.
   void put(size_t layer, const PixelRect& part, std::span<const vec3> rgb, uint32_t version);
   /// Sets a coarse picture of a whole layer, by rows. All that was put before is to be forgotten.
   void putCoarse(size_t layer, std::span<const vec3> rgb, uint32_t version);
   void dropCoarse(size_t layer);
 
   /// Returns all that was set after block number `after`, oldest first, and sets `after` to the last block. A part that
-  /// was set again since comes once. If it is more than about `bytes`, squares of pixels become one, each their mean.
+  /// was set several times comes once. If that is more than about `bytes`, each square of several pixels is reduced to
+  /// its mean.
   std::string reducedAfter(uint64_t& after, size_t bytes) const;
   /// Returns the same at full size, but no more than about `bytes` of it, none after block `last`, and no coarse
   /// picture.

@@ -1,4 +1,4 @@
-// The pages of a shot share these: one of them edits, and all wait until the shot is prepared.
+// State that the pages of a shot share: which of them may edit, and whether the shot is prepared.
 #pragma once
 #include <atomic>
 #include <condition_variable>
@@ -10,7 +10,7 @@
 
 namespace tomales {
 
-/// The page that edits, by the number that it has given itself; others watch. Threads: any.
+/// The page that edits, by the number that it chose for itself; all others watch. Threads: any.
 class Editor {
  public:
   /// Tells whether this page may edit: it does already, it takes over, or nobody does. Page 0 has no number.
@@ -30,7 +30,7 @@ class Editor {
   std::atomic<uint64_t> page_{0};
 };
 
-/// Makes questions of pages wait until the shot is prepared. Threads: any.
+/// Makes requests of pages wait until the shot is prepared. Threads: any.
 class Gate {
  public:
   /// Ends the wait. `good`: the shot can be shown; otherwise pass() throws BadRequest.

@@ -61,7 +61,7 @@ class RelightServer {
         edits_(command.folder),
         server_(HttpServer::bind(command.port)) {}
 
-  /// Returns the exit code: what a page tries out later is no fault of the shot.
+  /// Serves the page. Returns the exit code, which later edits of a page do not affect.
   int run() {
     addRoutes();
     server_->start();
@@ -111,7 +111,7 @@ class RelightServer {
     return code;
   }
 
-  /// A handler that waits until the shot is there, and tells the page why it is refused.
+  /// Returns a handler that waits until the shot is prepared, and answers with the reason if a request is refused.
   using Answer = HttpReply (RelightServer::*)(const HttpQuestion&);
   HttpHandler later(Answer answer) {
     return [this, answer](const HttpQuestion& q) -> HttpReply {
@@ -170,7 +170,7 @@ class RelightServer {
     return {whole.empty() ? 204 : 200, "application/octet-stream", {bytes, whole.size() * sizeof(float)}};
   }
 
-  /// Refuses what a page that only watches asks for.
+  /// Refuses requests of a page that only watches.
   void checkEditor(const HttpQuestion& q) {
     const uint64_t page = q.parameters.contains("page") ? numberOf(q, "page") : 0;
     if (!editor_.admits(page, q.parameters.contains("take"))) throw Watches("another page edits");
@@ -217,9 +217,9 @@ class RelightServer {
     return out;
   }
 
-  /// Returns the status as JSON after its length in 32 bits, and then new blocks of the layers. Without "last" these
-  /// are all new blocks, reduced to so many bytes. With it they are at full size, as many as the bytes hold, up to that
-  /// block.
+  /// Returns the length of the status in 32 bits, the status as JSON, and then new blocks of the layers. Without "last"
+  /// these are all new blocks, reduced to fit into "bytes". With "last" they are blocks at full size, as many as fit
+  /// into "bytes", up to that block.
   HttpReply news(const HttpQuestion& q) {
     uint64_t after = numberOf(q, "after");
     const size_t bytes =
@@ -227,7 +227,7 @@ class RelightServer {
     const bool full = q.parameters.contains("last");
     const LayerStore& layers = relighting_.layers();
     if (!ended_ && !full) layers.wait(after, q.parameters.contains("told") ? numberOf(q, "told") : layers.woken());
-    const uint64_t told = layers.woken();  // before what is told, so that nothing later is taken for told
+    const uint64_t told = layers.woken();  // read before the news, so that later changes are not taken for reported
     std::string blocks = full ? relighting_.layers().blocksAfter(after, bytes, numberOf(q, "last"))
                               : relighting_.layers().reducedAfter(after, bytes);
     Json status = relighting_.status();

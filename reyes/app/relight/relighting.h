@@ -1,6 +1,6 @@
 // A shot that is lit again and again: the picture's share by each group of lights, and the whole under the present
-// edit. A thread of its own shades what an edit makes old: first coarse, then near the pointer. What pages and that
-// thread share is in EditSession. Threads: any may call the members.
+// edit. A thread of its own shades again what an edit makes outdated: first coarsely, then from the pointer outwards.
+// EditSession holds what pages and that thread share. Threads: any may call the members.
 #pragma once
 #include <thread>
 
@@ -33,7 +33,7 @@ class Relighting {
   /// Returns the shaders that may take the place of others, and one of them. Throws BadRequest if there is none.
   Json offered() const;
   Json offeredShader(const std::string& kind, const std::string& name) const;
-  /// Returns what is being done, and for each layer what it shows.
+  /// Returns what is being done, and which edit each layer shows.
   Json status() const;
   const LayerStore& layers() const { return pictures_->store(); }
 
@@ -43,7 +43,7 @@ class Relighting {
   const Editable& editable() const { return shot_.editable(); }
   /// Parts near this pixel come first from now on.
   void pointAt(int x, int y);
-  /// Nothing outside of these pixels is shaded from now on; empty: all is.
+  /// Only these pixels are shaded from now on; if not given, all are.
   void shadeOnly(const std::optional<PixelRect>& pixels);
   /// Asks for the picture under the present edit, as `tomales shade --edit` makes it.
   void askForWhole() { session_->askForWhole(); }
@@ -81,7 +81,7 @@ class Relighting {
   Log& log_;
   WorkStatus status_;
   RelitShot shot_;
-  bool sharesBounces_ = true;  ///< It is known which light has bounced.
+  bool sharesBounces_ = true;  ///< The records know which light has bounced.
   // These are there once prepare() has returned.
   std::unique_ptr<PictureParts> parts_;
   std::unique_ptr<EditSession> session_;

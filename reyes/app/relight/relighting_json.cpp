@@ -1,11 +1,11 @@
-// The answers to a page that asks about a shot and its shading.
+// Answers to requests of pages about a shot and its shading.
 #include "reyes/app/relight/relighting.h"
 
 namespace tomales {
 namespace {
 
-/// A point p of the shader's space is at pixel (x/w, y/w) of the window, with (x, y, z, w) = the matrix by columns
-/// times (p, 1); in front of the eye w is positive.
+/// Returns a matrix M, stored by columns, that puts a point p of the world at pixel (x/w, y/w) of the window, with (x,
+/// y, z, w) = M (p, 1). In front of the eye w is positive.
 mat4 pixelFromWorld(const Scene& scene, const PixelRect& window) {
   const Camera camera(scene.options);
   const vec2 half = 0.5f * vec2(camera.xResolution(), camera.yResolution());

@@ -6,7 +6,7 @@
 namespace tomales {
 namespace {
 
-constexpr size_t kPartsPerCheck = 4;  ///< One part of so many is compared with the sum of the layers.
+constexpr size_t kPartsPerCheck = 4;  ///< One part in this many is compared with the sum of the layers.
 
 }  // namespace
 
@@ -103,7 +103,8 @@ void Relighting::shadeCoarse(const WorkStep& step) {
   session_->takeCoarse(step.layer, [&] { pictures_->putCoarse(step.layer, colors, step.number); });
 }
 
-// Rays of the coarse picture are traced once while nobody waits for it, and what they may meet is read.
+// Traces the rays of the coarse picture once, while nobody waits for it, which also reads the geometry that they may
+// meet.
 void Relighting::rehearse(const WorkStep& step) {
   ShotJob& job = jobFor(step.edit);
   status_.tell("preparing for edits", 0);

@@ -67,7 +67,7 @@ EditState RelitShot::takeGivenEdit() {
     return out;
   } catch (const BadRequest& e) {
     log_.report(Severity::Warning, "relight-edit", wholeFile(settings_.input.edits.front()),
-                fmt::format("stays below what the page changes, and is no part of what it saves: {}", e.what()));
+                fmt::format("applies before the changes of the page, which do not save it: {}", e.what()));
     return {};
   }
 }

@@ -12,10 +12,11 @@ class RelitShot {
  public:
   RelitShot(const RenderSettings& settings, Stats& stats, Log& log);
 
-  /// Gathers its light, without --irradiance, and opens it. Returns a job to look at, which has to end before jobFor()
-  /// or gather() makes another; null if a file cannot be read, which is reported, or if it was interrupted.
+  /// Opens the shot and, without --irradiance, gathers its light first. Returns a job for reading, which must be
+  /// destroyed before jobFor() or gather() makes another; null if a file cannot be read, which is reported, or if it
+  /// was interrupted.
   std::unique_ptr<ShotJob> open();
-  /// Returns the edit of the command line, so that it is part of what a page saves.
+  /// Returns the edit of the command line, which becomes part of what a page saves.
   EditState takeGivenEdit();
 
   std::shared_ptr<const ShotFiles> files() const;
@@ -42,7 +43,7 @@ class RelitShot {
   Log& log_;
   const TemporaryFolder folder_;
   mutable std::mutex mutex_;          ///< Guards the pointer to the files.
-  std::shared_ptr<ShotFiles> files_;  ///< Changed by the thread that shades alone, which reads it without the lock.
+  std::shared_ptr<ShotFiles> files_;  ///< Only the shading thread changes it, so that thread reads it without the lock.
   std::unique_ptr<TileStore> tiles_;
   std::unique_ptr<ShotJob> job_;
   std::string textOfJob_;  ///< The edit of job_, and its variable.

@@ -16,8 +16,7 @@ constexpr const char* kRecords = ".icf";
 constexpr size_t kLongestName = 64;
 constexpr uintmax_t kMostEdit_bytes = 1 << 20;
 
-/// Returns the file of an edit. Only letters, digits, - and _ make a name, so that it leads nowhere else than to the
-/// folder.
+/// Returns the file of an edit. A name has only letters, digits, - and _, so it cannot lead out of the folder.
 fs::path fileOfEdit(const std::string& folder, const std::string& name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
   if (name.empty() || name.size() > kLongestName || !std::ranges::all_of(name, plain))
@@ -39,7 +38,7 @@ bool isEdit(const fs::path& file, const Editable& editable) {
 
 bool isThere(const fs::path& file) { return fs::exists(fs::symlink_status(file)); }
 
-/// Whoever looks at `to` sees what was there before, or the whole copy.
+/// Copies a file in such a way that `to` is at any time either the old file or the whole copy.
 bool copyFinished(const fs::path& from, const fs::path& to, std::string& error) {
   try {
     const TemporaryFolder beside(to.parent_path());

@@ -12,7 +12,7 @@ class SavedEdits {
  public:
   explicit SavedEdits(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Returns the names of all edits of this shot: scenes and other RIB files lie there too.
+  /// Returns the names of all edits of this shot. Scenes and other RIB files in the folder are left out.
   std::set<std::string> names(const Editable& editable) const;
 
   /// The files that were written.
@@ -22,7 +22,7 @@ class SavedEdits {
   };
   /// Writes the state as NAME.rib, and a copy of the records in the file `gathered`, if there is one, as NAME.icf. It
   /// replaces an edit of this shot, and records that it has written itself, but no other file. Throws BadRequest if
-  /// a file is in the way, before it has written anything, or cannot be written.
+  /// another file is in the way, before anything is written, or if a file cannot be written.
   Written save(const std::string& name, const EditState& state, const std::string& gathered, const Editable& editable);
 
   /// Throws BadRequest if there is no such edit, or if it is not one of this shot.

@@ -1,4 +1,4 @@
-// Shaded buckets that several parts of a layer need: neighbouring parts need the same ones at their border. Threads:
+// Shaded buckets that several parts of a layer need, because neighbouring parts overlap at their border. Threads:
 // begin() and clear() while no other call runs, any otherwise.
 #pragma once
 #include <map>
@@ -12,7 +12,7 @@ class SharedTiles {
  public:
   explicit SharedTiles(size_t layers) : layers_(layers) {}
 
-  /// Call it before a part of a layer is shaded: buckets of other edits than this one are forgotten.
+  /// Call it before a part of a layer is shaded: it forgets the layer's buckets of any other edit.
   void begin(size_t layer, uint32_t edit);
   /// Returns false if the bucket is not there.
   bool load(size_t layer, size_t bucket, DeepTile& tile) const;

@@ -3,8 +3,8 @@
 namespace tomales {
 namespace {
 
-/// Limit of the answers of interpolated light: there is one for each layer, and for each normal that an edit of bumps
-/// has made.
+/// Limit of the answers of interpolated light at a point: there is one for each layer, and for each normal that edits
+/// of bumps make.
 constexpr size_t kMostAnswersOfPoint = 32;
 
 }  // namespace

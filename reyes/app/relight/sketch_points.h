@@ -1,5 +1,5 @@
 // Points of a shot in the middle of squares of 16 x 16 pixels: shading them shows an edit at once, before the picture
-// is shaded. Rays that they take are traced once, and again where an edit has them go another way.
+// is shaded. Their rays are traced once, and again where an edit changes their way.
 #pragma once
 #include <mutex>
 
@@ -11,12 +11,12 @@ namespace tomales {
 
 class SketchPoints {
  public:
-  /// The points are in as many tiles as are given here.
+  /// `tiles`: number of tiles that the points are divided among.
   SketchPoints(const PixelRect& window, size_t tiles) : window_(window), reduced_(tiles) {}
 
-  /// Takes the points of a bucket into one of the tiles, unless the bucket has been taken. Threads: any.
+  /// Adds the points of a bucket to the tile `to`, unless the bucket has been added already. Threads: any.
   void add(size_t bucket, const DeepTile& tile, size_t to);
-  /// Forgets what rays have met: the next call of shade() traces them.
+  /// Forgets what rays have met, so that the next call of shade() traces them.
   void forgetRays();
   /// Returns the colours of the squares by rows, black where nothing is seen.
   std::vector<vec3> shade(ShotJob& job);

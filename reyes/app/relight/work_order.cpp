@@ -20,8 +20,8 @@ WorkStep stepFor(WorkStep::Kind kind, const EditedLayers& layers, size_t layer, 
 
 }  // namespace
 
-// Returns the old part that is nearest to the pointer. Of several layers there it takes the earliest, because the light
-// of what shines by itself is subtracted from the other layers.
+// Returns the outdated part that is nearest to the pointer. If several layers are outdated there, it takes the first,
+// because the glow layer is subtracted from the later ones.
 std::optional<WorkStep> WorkOrder::nextPart(size_t from, size_t to, const EditedLayers& layers,
                                             const PictureParts& parts) const {
   std::optional<std::pair<size_t, size_t>> best;
@@ -38,8 +38,8 @@ std::optional<WorkStep> WorkOrder::nextPart(size_t from, size_t to, const Edited
   return stepFor(WorkStep::Part, layers, best->first, best->second);
 }
 
-// First of all comes the whole picture, and after an edit when the page asks for it; then what is shown instead; then
-// all layers coarse, if they were shaded before.
+// The order is: the whole picture, at first and when the page asks for it after an edit; then the variable that is
+// shown instead; then all layers coarsely, if they were shaded before.
 std::optional<WorkStep> WorkOrder::next(const EditedLayers& layers, const PictureParts& parts) const {
   const size_t last = layers.variableLayer();
   if (toGather) return WorkStep{WorkStep::Gather, 0, 0, 0, layers.present(), "", *toGather};

@@ -1,5 +1,5 @@
-// What is shaded next of a picture that is relit: what pages ask for, and the order of the steps
-// (docs/decisions/0172). Threads: plain object.
+// Decides what is shaded next in a relighting: what pages ask for, and the order of the steps (docs/decisions/0172).
+// Threads: plain object.
 #pragma once
 #include "reyes/app/relight/edited_layers.h"
 #include "reyes/app/relight/picture_parts.h"
@@ -21,12 +21,12 @@ struct WorkOrder {
   std::optional<PixelRect> only{};  ///< Nothing outside of these pixels is shaded.
   std::optional<PixelRect> toGather{};
   bool wantsWhole = true;
-  bool isChecked = false;    ///< It has been checked that the layers add up.
+  bool isChecked = false;    ///< The layers have been checked to add up.
   bool isRehearsed = false;  ///< The first picture is there, and the rays of the coarse one are known.
 
   /// Returns nothing if all is done.
   std::optional<WorkStep> next(const EditedLayers& layers, const PictureParts& parts) const;
-  /// Tells whether a step that is running is of use still.
+  /// Tells whether a running step is still of use.
   bool isWanted(const WorkStep& step, const EditedLayers& layers) const;
   /// Notes that a step is done.
   void finish(const WorkStep& step, EditedLayers& layers);

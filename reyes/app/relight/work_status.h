@@ -1,4 +1,4 @@
-// The work that a page is told of: a name, and how much of it is done. Threads: any.
+// The work in progress, as a page shows it: its name, and the share that is done. Threads: any.
 #pragma once
 #include <mutex>
 #include <string>

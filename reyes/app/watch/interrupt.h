@@ -1,13 +1,13 @@
 // The end of the program by SIGINT, SIGTERM, or SIGHUP (unless that is ignored, as nohup has it). Work that can keep
-// what is finished asks for an orderly end: the first signal then asks for a stop, which its stages watch. A second
-// signal, or the first one during other work, as while RIB is read, ends the process at once, without leaving
-// unfinished files or programs behind (reyes/base/abrupt_end.h). So does a shader that does not return within 10 s,
-// which is told.
+// finished parts asks for an orderly end: the first signal then asks for a stop, which its stages watch. A second
+// signal, or the first one during other work such as reading RIB, ends the process at once, without leaving unfinished
+// files or programs behind (reyes/base/abrupt_end.h). The same happens, with a message, if a shader does not return
+// within 10 s.
 #pragma once
 namespace tomales {
 
-/// Opens standard files that are closed, in a way that their use fails as it would have. Otherwise the next file that
-/// the program opens would take their place and get its messages. Call it once, before anything else is opened.
+/// Opens standard files that are closed, in such a way that their use still fails. Otherwise the next file that the
+/// program opens would take their place and get its messages. Call it once, before anything else is opened.
 void openStandardFiles();
 /// Call it once, before other threads start: they must not get the signals. A pipe that nobody reads any more (SIGPIPE)
 /// and a file that is too large (SIGXFSZ, ulimit -f) are then errors of write().

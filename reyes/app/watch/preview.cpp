@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr size_t kMostWaiting_bytes = size_t{64} << 20;
-constexpr std::chrono::seconds kPatience{1};  ///< The wait for a viewer that does not answer, once the picture is done.
+constexpr std::chrono::seconds kPatience{1};  ///< Longest wait for a silent viewer, after the picture is done.
 constexpr size_t kChannels = 4;               ///< R G B A, the first of a frame's picture.
 
 DriverPicture pictureOf(const std::string& address, const std::string& name, const DeepFrame& layout) {

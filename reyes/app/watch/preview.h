@@ -13,7 +13,7 @@ namespace tomales {
 
 class Preview {
  public:
-  /// `address` is "host:port". If nobody listens there, that is reported once, and the picture is made all the same.
+  /// `address` is "host:port". If nothing listens there, this is reported once, and the picture is made all the same.
   Preview(std::string address, const std::string& name, const DeepFrame& layout, Log& log);
   /// Waits at most a second for a viewer that is slow.
   ~Preview();

@@ -1,6 +1,6 @@
 // Shows how far a frame is, pass by pass. A terminal gets a bar of the frame with the time left, and the running pass
-// with its own share and time; they move every second. Elsewhere the lines "R90000  NN%" that render farms read tell
-// the share of the frame, and lines such as "gathering  40 %" that of a pass. Threads: members may be called from any.
+// with its own share and time; they move every second. Elsewhere, lines "R90000 NN%", which render farms read, give the
+// share of the frame, and lines such as "gathering 40 %" the share of a pass. Threads: members may be called from any.
 #pragma once
 #include <chrono>
 #include <condition_variable>

@@ -28,7 +28,7 @@ bool appendTo(const std::string& path, const std::string& line, std::string& why
 
 constexpr const char* kFrameDone = "frame-done";
 
-/// Returns the messages of `now` that `before` has not, and how often and where they came meanwhile.
+/// Returns the messages of `now` that are not in `before`, with their counts and places since then.
 std::vector<LogEntry> newOf(const std::vector<LogEntry>& before, std::vector<LogEntry> now) {
   for (size_t i = 0; i < before.size(); ++i) {
     now[i].count -= before[i].count;

@@ -16,12 +16,12 @@ struct RunFigures {
   std::optional<int> frame;        ///< Empty before the first frame.
   double wall_s = 0, cpu_s = 0;    ///< Times of the whole process.
   int64_t peak_bytes = 0;          ///< Most resident memory.
-  std::vector<LogEntry> messages;  ///< Reported meanwhile.
+  std::vector<LogEntry> messages;  ///< Messages reported in that time.
 };
 
 class RunReport {
  public:
-  /// Opens --log, and says there what runs. `log` and `settings` outlive it.
+  /// Opens --log, and writes there what runs. `log` and `settings` outlive it.
   RunReport(const RenderSettings& settings, Log& log);
 
   /// Returns the counters of the frame that is being made, or of the run where --stats names one file for all frames.
@@ -31,7 +31,7 @@ class RunReport {
   void begin(int frame) { frame_ = frame; }
   /// Writes the figures so far, if --stats names one file for a frame or for all.
   void flush();
-  /// A frame is done: says what it has written and taken, and writes its figures.
+  /// Ends the frame: reports the files that it has written and the time that it has taken, and writes its figures.
   void end(const SourceLoc& where);
   /// Leaves out the reading of a frame that is not rendered.
   void skip();

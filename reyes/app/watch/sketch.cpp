@@ -10,7 +10,8 @@ void append(const ShadePoints& from, int i, ShadePoints& to) {
   for (int c = 0; c < from.channelCount(); ++c) to.channel(c)[k] = from.channel(c)[i];
 }
 
-/// Returns the first number from `value` on that is `origin` and a multiple of `stride`. Pre: value is at least origin.
+/// Returns the first number from `value` on that is `origin` plus a multiple of `stride`. Pre: value is at least
+/// origin.
 int roundUp(int value, int origin, int stride) { return origin + (value - origin + stride - 1) / stride * stride; }
 
 /// Returns the batch of a tile for points of this group.

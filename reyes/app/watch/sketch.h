@@ -16,8 +16,8 @@ struct Corner {
 void addCorners(const DeepTile& tile, int stride, const ivec2& origin, DeepTile& reduced, std::vector<Corner>& out);
 
 /// Returns squares of `stride` pixels, R G B A of the crop window, exposed and through the imager, each in the colour
-/// of its corner's first point. It shades nothing else, so that all strides of the gather pass together cost a third of
-/// shading. If it is stopped, the missing squares are black.
+/// of its corner's first point. It shades nothing else: all strides of the gather pass together cost a third of shading
+/// the frame. If it is stopped, the missing squares are black.
 Image sketch(const DeepFrame& layout, const TileReader& tiles, int stride, const Scene& scene,
              const ShadingSystem& shading, const ShadeContext& context, StopToken stop);
 

@@ -10,7 +10,7 @@ namespace tomales {
 std::string statsText(const RenderSettings& settings, const Stats& stats, const RunFigures& figures, int indent);
 
 /// Returns the same on one line of at most kStatisticsRoom bytes, without messages and the command's paths, and without
-/// the figures of single shaders if these are too many.
+/// the figures of single shaders if there are too many of them.
 std::string statsOfHeader(const RenderSettings& settings, const Stats& stats, const RunFigures& figures);
 
 /// Prints a table of the cost of each shader, the most expensive first, to standard output. Times include lights and

@@ -37,7 +37,8 @@ Camera cameraOf(const aiCamera& camera, const mat4& worldFromNode) {
       lookingAlong(transformPoint(worldFromNode, of(camera.mPosition)), forward, usableUp(forward, up));
   if (camera.mAspect > 0.05f && camera.mAspect < 20) out.aspect = camera.mAspect;
   if (camera.mOrthographicWidth > 0) out.orthographic_halfWidth = camera.mOrthographicWidth;
-  // Assimp 5.2 does not read cameras of COLLADA that have no name, and takes its own angle, in radians, for degrees.
+  // Assimp 5.2 does not read cameras of COLLADA that have no name, and converts its default angle, which is in radians,
+  // as if it were in degrees.
   out.isAngleKnown = camera.mHorizontalFOV != AI_DEG_TO_RAD(aiCamera().mHorizontalFOV);
   if (!out.isAngleKnown) return out;
   // Without an aspect the angle is that of a square picture.

@@ -10,7 +10,7 @@
 
 namespace tomales::model {
 
-/// Returns the first `most` bytes of a file. Empty: the file is empty or cannot be read.
+/// Returns the first `most` bytes of a file; nothing if it is empty or cannot be read.
 inline std::string contentOf(const std::string& path, size_t most = std::numeric_limits<size_t>::max()) {
   std::ifstream in;
   std::error_code failed;

@@ -71,7 +71,7 @@ std::string_view GltfBuffers::file(const std::string& uri, size_t most) {
   const std::filesystem::path path = std::filesystem::path(folder_) / uri,
                               same = std::filesystem::weakly_canonical(path, failed);
   const auto [place, isNew] = content_.try_emplace((failed ? path : same).string());
-  // Buffers that name more of a file each time would take long, so that the second one reads it whole.
+  // Reading more of a file for each buffer that names it would take long, so the second buffer reads all of it.
   if (isNew)
     place->second = contentOf(place->first, most);
   else if (most > place->second.size() && readWhole_.insert(place->first).second)
@@ -104,7 +104,7 @@ std::optional<std::vector<float>> GltfBuffers::floats(const json& accessor) {
   const size_t element = width * component->bytes, count = accessor.at("count").get<size_t>(),
                given = view.value("byteStride", size_t{0}), stride = given == 0 ? element : given,
                first = view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
-  // Each of these is small before they are multiplied.
+  // Each factor is checked before they are multiplied, so that no product overflows.
   if (count == 0 || count > bytes.size() || stride > 1024 || first > bytes.size() ||
       (count - 1) * stride + element > bytes.size() - first)
     return std::nullopt;

@@ -12,15 +12,15 @@ namespace tomales::model {
 
 class GltfBuffers {
  public:
-  /// `binary`: the buffer within a .glb, from which the others differ by their "uri".
+  /// `binary`: the buffer within a .glb; all other buffers have a "uri".
   GltfBuffers(const nlohmann::json& document, std::string folder, std::string_view binary)
       : document_(document), folder_(std::move(folder)), binary_(binary) {}
 
   /// Returns the elements of an accessor one after another. Integers that are normalized become -1..1. Returns nothing
-  /// where they are told in another way (sparse, compressed), or where the file has fewer.
+  /// if they are encoded in another way (sparse, compressed), or if the file has too few.
   std::optional<std::vector<float>> floats(const nlohmann::json& accessor);
 
-  /// Returns the size of all that was read. What many buffers name counts once.
+  /// Returns the size of all that was read. A file that several buffers name counts once.
   size_t bytesRead() const;
 
  private:

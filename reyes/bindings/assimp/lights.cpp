@@ -78,7 +78,7 @@ Requests requestsOf(const Placed& p, float scale, const LightSettings& settings)
       return source("pointlight", {from});
     case aiLightSource_AREA:
       return areaLight(p, scale);
-    case aiLightSource_UNDEFINED:  // as a small area: it shines before itself, with the cosine
+    case aiLightSource_UNDEFINED:  // treated as a small area, which shines forward with the cosine
       return source("spotlight", {from, to, param("coneangle", kPi / 2), param("conedeltaangle", 0.0f),
                                   param("beamdistribution", 1.0f)});
     default: {

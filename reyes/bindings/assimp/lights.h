@@ -1,4 +1,4 @@
-// Lights of a model, and those that it gets if it has none. Units: docs/import.md. Space: the right-handed world.
+// The lights of a model, or default lights if it has none. Units: docs/import.md. Space: the right-handed world.
 #pragma once
 #include <assimp/scene.h>
 
@@ -9,18 +9,18 @@ namespace tomales::model {
 
 struct LightSettings {
   Bound3 world;         ///< Bound of the world that is lit.
-  float scale = 0;      ///< Multiplies all; 0: as lights() finds it.
-  bool isGltf = false;  ///< Intensities are candela and lux, and cones are told by half their angles.
+  float scale = 0;      ///< Multiplies all lights; 0: lightsOf() chooses it.
+  bool isGltf = false;  ///< Intensities are in candela and lux, and cones are given by their half angles.
 };
 
 struct Lights {
   Requests requests;
   float scale = 1;  ///< Factor that all lights were multiplied by.
-  int unknown = 0;  ///< Number of lights whose kind Assimp does not tell, such as areas of .fbx.
+  int unknown = 0;  ///< Number of lights whose kind Assimp does not know, such as area lights of .fbx.
 };
 
-/// Returns the lights of the model. If the given scale is 0, theirs is 1 if they bring between 0.3 and 3 (E/pi) to the
-/// middle of the world without shadows. Otherwise it is the scale with which they bring 1.
+/// Returns the lights of the model. If the given scale is 0, it is 1 if their E/pi in the middle of the world, without
+/// shadows, is between 0.3 and 3; otherwise it is the scale that makes this 1.
 Lights lightsOf(const aiScene& scene, const Nodes& nodes, const LightSettings& settings);
 
 /// Returns a sun from the upper left behind the camera, and a sky.

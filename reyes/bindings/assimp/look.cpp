@@ -24,8 +24,8 @@ std::optional<vec3> color(const aiMaterial& m, const char* key, unsigned type, u
   return of(value);
 }
 
-/// The roughness of a highlight cos^n is that of Beckmann's distribution of the same width near its middle:
-/// alpha^2 = 2 / (n + 2) (Walter et al. 2007, section 5.1), and disney's alpha is the square of its roughness.
+/// Returns the roughness of a highlight cos^n, by Beckmann's distribution of the same width near its middle: alpha^2 =
+/// 2 / (n + 2) (Walter et al. 2007, section 5.1); disney's alpha is the square of its roughness.
 float roughnessOfExponent(float n) { return std::pow(2 / (std::max(n, 0.0f) + 2), 0.25f); }
 
 float roughnessOf(const aiMaterial& m) {
@@ -80,7 +80,7 @@ std::string alphaMode(const aiMaterial& material) {
   return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS ? of(mode) : "";
 }
 
-/// Its reader always says how alpha counts.
+/// Tells whether the material is glTF's, whose reader always sets a mode of alpha.
 bool isGltf(const aiMaterial& material) { return !alphaMode(material).empty(); }
 
 /// Adds pictures to a look.
@@ -116,7 +116,7 @@ class Painter {
   void leaveOut(const std::string& what) { look_.leftOut += (look_.leftOut.empty() ? "" : ", ") + what; }
 
  private:
-  /// A picture stands alone where its material gives no number to multiply, or 0, as formats without factors do.
+  /// Without a number to multiply, or with 0, as in formats without factors, a picture counts as it is.
   void multiplyOne(const Mapped& mapped) {
     if (!mapped.multiplied || mapped.multiplied == std::string("opacity")) return;
     const bool isColor = mapped.multiplied == std::string("emission"),
@@ -138,8 +138,8 @@ class Painter {
   int count_ = 0;
 };
 
-/// Applies glTF's mode of alpha (section 3.9.4 of its specification): it counts not at all, as it is, or as present or
-/// absent.
+/// Applies glTF's mode of alpha (section 3.9.4 of its specification): OPAQUE ignores alpha, BLEND uses it, and MASK
+/// cuts off at a threshold.
 void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
   const float cutoff = number(material, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
   const bool isMask = alphaMode(material) == "MASK";
@@ -156,8 +156,8 @@ void applyAlphaMode(const aiMaterial& material, Painter& painter, Look& look) {
   }
 }
 
-/// Makes a material that is not lit glow in its colour, by which colours of vertices are multiplied then. Its picture
-/// is the only one.
+/// Makes an unlit material glow in its colour, which multiplies colours of vertices. It uses no other picture than that
+/// of the colour.
 void makeUnlit(Look& look) {
   if (const Param* p = find(look.parameters, "secondset"); p && p->strings[0].find("texturename") != std::string::npos)
     look.first = *look.second;

@@ -15,8 +15,9 @@ namespace tomales::model {
 struct Look {
   std::string name;
   vec3 color{0.8f};
-  bool isColorGiven = true;   ///< False: `color` is made up, and is none where vertices or pictures have colours.
-  std::optional<vec3> unlit;  ///< What it glows in, whatever lights it; `color` is black then.
+  bool isColorGiven =
+      true;  ///< False: `color` is a default, and does not count where vertices or pictures have colours.
+  std::optional<vec3> unlit;  ///< Colour that it glows in, whatever lights it; `color` is black then.
   float opacity = 1;
   bool usesVertexAlpha = true;
   std::string shader = "disney";
@@ -26,14 +27,14 @@ struct Look {
   std::string leftOut;                       ///< Names of properties that the shader does not have; empty: none.
 };
 
-/// What the format of a material says beyond Assimp.
+/// What the format of a material says that Assimp does not pass on.
 struct LookSource {
-  bool pictureReplaces = false;          ///< A picture takes the place of the colour, which it multiplies elsewhere.
+  bool pictureReplaces = false;          ///< A picture replaces the colour; in other formats it multiplies it.
   bool isColorGiven = true;              ///< As in Look.
   std::map<aiTextureType, mat3> placed;  ///< How pictures are placed, as in MtlMaterial.
 };
 Look lookOf(const aiMaterial& material, Textures& textures, const LookSource& source);
-/// Color, Opacity and Surface.
+/// Returns the requests Color, Opacity and Surface.
 Requests requestsOf(const Look& look);
 
 }  // namespace tomales::model

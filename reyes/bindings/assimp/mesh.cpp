@@ -61,7 +61,7 @@ bool anyConcave(const Faces& faces, const std::vector<vec3>& points, const std::
   return false;
 }
 
-/// Values for each corner of some faces, or for each point where all vertices there have the same.
+/// Values for each corner of some faces, or for each point if all vertices at a point agree.
 class Variables {
  public:
   Variables(const aiMesh& mesh, const Look& look, const Faces& faces, const Welded& welded)
@@ -158,7 +158,7 @@ Request polygons(const aiMesh& mesh, const Look& look, const Faces& faces, const
                   faces.counts, std::move(corners));
 }
 
-/// Neither has a width in a model: a three-hundredth of the mesh.
+/// Returns the width of points and lines, which models do not give: a three-hundredth of the mesh.
 float widthOf(const aiMesh& mesh) { return std::max(glm::length(boundOf(mesh).size()) / 300, 1e-6f); }
 
 Request points(const aiMesh& mesh, const Look& look, const Faces& faces) {

@@ -10,17 +10,17 @@ namespace tomales::model {
 struct GeometrySettings {
   bool subdivide = false;
   float smooth_degrees = 45;
-  bool keepsNormals = true;      ///< False: those of the file say nothing that its faces do not.
-  std::vector<vec3> faceColors;  ///< They count where the vertices of a mesh of so many faces have none.
+  bool keepsNormals = true;      ///< False: the normals of the file add nothing to its faces.
+  std::vector<vec3> faceColors;  ///< Used if there is one for each face, and the vertices have no colours.
 };
 
 struct Geometry {
-  Requests requests;      ///< Polygons or a subdivision surface, linear curves, points. Empty: nothing can be drawn.
+  Requests requests;      ///< Polygons or a subdivision surface, linear curves, points; empty if nothing can be drawn.
   size_t values = 0;      ///< Numbers in them.
-  int unusableFaces = 0;  ///< Left out, as their coordinates are no finite numbers.
+  int unusableFaces = 0;  ///< Faces that are left out, because their coordinates are not finite.
 };
 
-/// Colours of vertices multiply the look's, and their alphas its opacity.
+/// Colours of vertices multiply the colour of the look, and their alphas its opacity.
 Geometry geometryOf(const aiMesh& mesh, const Look& look, const GeometrySettings& settings);
 
 /// Returns the bound of all finite vertices.

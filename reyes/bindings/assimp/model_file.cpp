@@ -71,9 +71,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 void tellOfGltf(const PlainGltf& gltf, const SourceLoc& where, Log& log) {
   if (gltf.isTooLarge)
-    log.report(
-        Severity::Warning, "import-coordinates", where,
-        "vertices that are told by integers are not understood: as floats they would be far larger than the file");
+    log.report(Severity::Warning, "import-coordinates", where,
+               "vertices stored as integers are not understood here: as floats they would be far larger than the file");
   if (gltf.leftOut.empty()) return;
   const std::string required =
       gltf.required.empty() ? "" : "; the file asks not to be read without " + listed(gltf.required);

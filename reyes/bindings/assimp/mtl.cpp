@@ -24,7 +24,7 @@ class Words {
   }
   void back() { end_ = begin_; }
   size_t begin() const { return begin_; }
-  /// Removes all from there to where the next word begins.
+  /// Removes the text from there to the beginning of the next word.
   void erase(size_t from) {
     next();
     line_.erase(from, begin_ - from);
@@ -47,7 +47,7 @@ std::optional<float> numberOf(const std::string& word) {
   return word.empty() || *end != 0 ? std::nullopt : std::optional(out);
 }
 
-/// Reads up to three numbers. One that is not finite leaves what was there.
+/// Reads up to three numbers. A number that is not finite leaves its component as it was.
 vec3 numbersOf(Words& words, vec3 out) {
   for (int k = 0; k < 3; ++k) {
     const auto number = numberOf(words.next());

@@ -1,4 +1,4 @@
-// What material files of .obj say that Assimp 5.2 does not tell. Threads: plain functions.
+// Reads what Assimp 5.2 does not pass on from the material files of .obj. Threads: plain functions.
 #pragma once
 #include <assimp/material.h>
 
@@ -10,13 +10,14 @@
 namespace tomales::model {
 
 struct MtlMaterial {
-  bool hasColor = false;                 ///< It has a Kd; Assimp makes up one for the others.
-  std::map<aiTextureType, mat3> placed;  ///< By options -s and -o of pictures, of coordinates whose v runs up.
+  bool hasColor = false;  ///< It has a Kd; for other materials Assimp makes one up.
+  std::map<aiTextureType, mat3>
+      placed;  ///< Mapping of pictures by their options -s and -o, in coordinates whose v runs up.
 };
 using MtlMaterials = std::map<std::string, MtlMaterial>;
 
-/// Adds the materials of a text. Returns the text without the options -s, -o and -t of pictures: Assimp leaves them
-/// out, and takes the picture's name for one of their three numbers where there are fewer.
+/// Adds the materials of a text. Returns the text without the options -s, -o and -t of pictures: Assimp ignores them,
+/// and takes the picture's name for a number where they have fewer than three.
 std::string plainMtl(const std::string& text, MtlMaterials& materials);
 
 }  // namespace tomales::model

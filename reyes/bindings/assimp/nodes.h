@@ -24,7 +24,7 @@ struct Instance {
 struct Nodes {
   std::vector<Instance> instances;  ///< Instances in the order of the tree, depth first.
   std::map<std::string, mat4> worldFromNode;
-  int unusable = 0;  ///< Instances that are left out: their transformation is singular or no number.
+  int unusable = 0;  ///< Instances that are left out: their transformation is singular or not finite.
 };
 
 Nodes nodesOf(const aiScene& scene, const mat4& worldFromModel);

@@ -7,7 +7,7 @@
 
 namespace tomales::model {
 
-/// A text written whole. Throws WriteError.
+/// Writes a whole file. Throws WriteError.
 void writePart(const std::string& path, const std::string& bytes);
 
 class Parts {
@@ -18,7 +18,7 @@ class Parts {
     std::string path;  ///< Path to write to.
     std::string name;  ///< Name in the RIB.
   };
-  /// Returns a new file in the folder of parts, under a name made of `stem`, which may be anything.
+  /// Returns a new file in the folder of parts, with a name made from `stem`, which may be any text.
   Place reserve(const std::string& stem, const std::string& ending);
   /// Writes the requests as binary RIB. Returns the name of the file in the RIB.
   std::string addArchive(const std::string& stem, const Requests& requests);

@@ -72,7 +72,7 @@ std::string closed(const Container& c, std::string text) {
   return out;
 }
 
-/// Tells whether lists lie within one another so deep that what calls itself for each would run out of stack.
+/// Tells whether lists are nested so deeply that recursion over them would exhaust the stack.
 bool isDeep(std::string_view text) {
   constexpr int kDeepest = 500;
   int depth = 0;
@@ -87,11 +87,11 @@ bool isDeep(std::string_view text) {
   return depth > kDeepest;
 }
 
-/// The floats would be far larger than the integers that they are made of.
+/// Thrown if the floats would take far more memory than the integers that they are made from.
 struct TooLarge {};
 
-/// Says in a document what its extensions say. What is malformed is left as it is: Assimp says more of it, or does not
-/// mind.
+/// Rewrites a document's extensions in plain glTF. Malformed parts are left as they are, for Assimp to report or to
+/// ignore.
 class Amendments {
  public:
   Amendments(json& document, GltfBuffers& buffers, std::string& floats)
@@ -147,7 +147,8 @@ class Amendments {
     }
   }
 
-  /// Assimp takes integers of anything but colours for the bits of floats, and colours without alpha for transparent.
+  /// Converts an attribute to floats: Assimp takes integers, except in colours, for the bits of floats, and colours
+  /// without alpha for transparent.
   void amendAttribute(const std::string& name, json& index) {
     const json& accessor = document_.at("accessors").at(index.get<size_t>());
     const bool isColor = name.starts_with("COLOR_"),
@@ -162,7 +163,8 @@ class Amendments {
     index = *place->second;
     changed_ = true;
   }
-  /// Adds an accessor of the same numbers, as another attribute may use this one too. Returns its index.
+  /// Adds an accessor of the same numbers as floats, because other attributes may use the old one too. Returns its
+  /// index.
   std::optional<size_t> withFloats(json accessor, bool isColor) {
     const auto values = buffers_.floats(accessor);
     if (!values) return std::nullopt;
@@ -184,7 +186,7 @@ class Amendments {
   void addFloat(float value) { floats_.append(reinterpret_cast<const char*>(&value), sizeof value); }
 
   static constexpr int kFloat = 5126;
-  // Bytes grow to six times their size at most where no two accessors share any.
+  // If no two accessors share bytes, the data grows to six times its size at most.
   static constexpr size_t kLeastBound = size_t{64} << 20, kMostGrowth = 16;
 
   json& document_;

@@ -7,7 +7,7 @@
 namespace tomales::model {
 namespace {
 
-/// Returns the channel that a property of a face is; -1: it is no colour.
+/// Returns the channel of a face's property; -1 if it is no colour.
 int channelOf(const PlyProperty& p) {
   static constexpr const char* kChannels[] = {"red", "green", "blue"};
   const auto* found = std::find(std::begin(kChannels), std::end(kChannels), p.name);

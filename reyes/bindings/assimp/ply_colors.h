@@ -7,7 +7,7 @@
 
 namespace tomales::model {
 
-/// Returns one for each face, or none where the file has none or ends early.
+/// Returns a colour for each face, or an empty list if the file has none or ends early.
 std::vector<vec3> colorsOfFaces(const std::string& path);
 
 }  // namespace tomales::model

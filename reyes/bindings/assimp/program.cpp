@@ -10,7 +10,7 @@ namespace {
 
 using namespace tomales;
 
-/// The most that a child may take: CPU time, and the machine's memory, or what the user's own limits leave.
+/// Limits this process: its CPU time, and its memory to that of the machine, or to the user's own lower limits.
 void limitResources(int most_s) {
   const auto limit = [](auto resource, rlim_t most) {
     rlimit now{};

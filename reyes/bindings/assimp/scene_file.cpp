@@ -20,7 +20,7 @@ constexpr size_t kMostInline = 2000;
 
 bool isGltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb" || ending == ".vrm"; }
 
-/// Files for printers have z up; Assimp turns other formats that say so.
+/// Formats for 3D printers have z up; other formats that state their axis are turned by Assimp.
 mat4 worldFromModel(const Settings& settings) {
   const std::string ending = endingOf(settings.model);
   const bool zUp = settings.up == "z" || (settings.up.empty() && (ending == ".stl" || ending == ".3mf"));
@@ -62,10 +62,10 @@ class SceneWriter {
       looks_.push_back(lookOf(*scene_.mMaterials[k], textures, sourceOf(*scene_.mMaterials[k])));
       if (const Look& look = looks_.back(); !look.leftOut.empty())
         note(Severity::Warning, "import-material",
-             fmt::format("material \"{}\" has what disney has nothing for: {}", look.name, look.leftOut));
+             fmt::format("material \"{}\" has properties that disney lacks: {}", look.name, look.leftOut));
       if (looks_.back().opacity == 0)
         note(Severity::Note, "import-invisible",
-             fmt::format("material \"{}\" has the opacity 0: nothing that has it is to be seen", looks_.back().name));
+             fmt::format("material \"{}\" has the opacity 0: nothing that has it is visible", looks_.back().name));
     }
   }
   /// In .fbx and .dae a picture replaces a colour. Assimp makes up colours for .off, and for .obj that give none.

@@ -3,13 +3,14 @@
 namespace tomales::model {
 namespace {
 
-/// Around a point where more faces meet all of them count, whatever their angles: else the work would grow with the
-/// square.
+/// If more faces than this meet at a point, all of them count, whatever their angles, because the work would grow with
+/// the square of their number.
 constexpr int kMostCompared = 64;
 
 const vec3 kNone(0.0f);
 
-/// Uses Newell's method, which works for polygons that are not quite flat. Zero: the face has no area.
+/// Returns the face's normal, or zero if it has no area. Newell's method also works for polygons that are not quite
+/// flat.
 vec3 faceNormal(const std::vector<vec3>& points, const int* corners, int count) {
   glm::dvec3 sum(0.0);
   const glm::dvec3 origin = points[static_cast<size_t>(corners[0])];

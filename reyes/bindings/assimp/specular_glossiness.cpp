@@ -7,9 +7,9 @@
 namespace tomales::model {
 namespace {
 
-constexpr float kDielectric = 0.04f;  ///< What a dielectric of glTF reflects straight ahead, which disney calls 0.5.
+constexpr float kDielectric = 0.04f;  ///< glTF's reflectance of dielectrics at normal incidence; 0.5 in disney.
 
-/// Assimp gives a material without a description by metallic and roughness the defaults of one.
+/// Tells whether metallic and roughness are given: Assimp sets their defaults for other materials too.
 bool isDescribedByMetallic(const aiMaterial& m) {
   float metallic = 0, roughness = 0;
   aiColor4D base;
@@ -20,7 +20,8 @@ bool isDescribedByMetallic(const aiMaterial& m) {
          m.GetTextureCount(aiTextureType_BASE_COLOR) > 0 || m.GetTextureCount(aiTextureType_UNKNOWN) > 0;
 }
 
-/// A base colour b of metallic m scatters b (1 - m), and reflects 0.04 (1 - m) + b m. Solved for m, given both.
+/// A base colour b of metallic m scatters b (1 - m), and reflects 0.04 (1 - m) + b m. Returns m for given values of
+/// both.
 float metallicFor(float scattered, float reflected) {
   if (reflected <= kDielectric) return 0;
   const float b = scattered + reflected - 2 * kDielectric, c = kDielectric - reflected;
@@ -35,7 +36,7 @@ std::optional<Metallic> metallicOfSpecularGlossiness(const aiMaterial& m) {
   aiColor4D diffuse(1, 1, 1, 1), given(1, 1, 1, 1);
   m.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
   m.Get(AI_MATKEY_COLOR_SPECULAR, given);
-  const bool isMapped = m.GetTextureCount(aiTextureType_SPECULAR) > 0;  // so that the factor alone says nothing
+  const bool isMapped = m.GetTextureCount(aiTextureType_SPECULAR) > 0;  // then the factor alone says nothing
   const vec3 reflected = isMapped ? vec3(kDielectric) : glm::clamp(vec3(given.r, given.g, given.b), 0.0f, 1.0f),
              scattered = vec3(diffuse.r, diffuse.g, diffuse.b) * (1 - maxComponent(reflected));
   Metallic out;

@@ -8,14 +8,14 @@
 
 namespace tomales::model {
 
-/// Such a material in the terms of disney.
+/// Such a material in parameters of `disney`.
 struct Metallic {
   vec3 color{1.0f};
   float opacity = 1, metallic = 0, roughness = 1;
   float specular = 0.5f;
 };
 
-/// Returns nothing where the material is described by metallic and roughness too, which disney has.
+/// Returns nothing if the material also has metallic and roughness, which `disney` takes as they are.
 std::optional<Metallic> metallicOfSpecularGlossiness(const aiMaterial& material);
 
 }  // namespace tomales::model

@@ -10,12 +10,12 @@ namespace tomales::model {
 inline const mat3 kStFromUv{{1, 0, 0}, {0, -1, 0}, {0, 1, 1}};
 
 struct TextureCoordinates {
-  unsigned set = 0;           ///< Number of those of the mesh.
+  unsigned set = 0;           ///< Index among the mesh's sets of texture coordinates.
   mat3 stFromUv = kStFromUv;  ///< It takes (u, v, 1) as Assimp gives it.
   bool operator==(const TextureCoordinates&) const = default;
 };
 
-/// `set`: those of the material's first picture of this type.
+/// `set`: the set of the material's first picture of this type.
 TextureCoordinates coordinatesOf(const aiMaterial& material, aiTextureType type, unsigned set, bool isGltf);
 
 }  // namespace tomales::model

@@ -40,8 +40,8 @@ std::string withoutEscapes(const std::string& uri) {
   return out;
 }
 
-/// Returns the file of this name beside the model, also if the name is a path of Windows. Otherwise the last part of
-/// the name counts, as models outlive the folders they were made in.
+/// Returns the file of this name beside the model, also if the name is a path of Windows. If there is none, it looks
+/// for the last part of the name, because models outlive the folders they were made in.
 std::string foundBeside(const std::string& model, const std::string& name) {
   std::string slashed = withoutEscapes(name);
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
@@ -52,7 +52,7 @@ std::string foundBeside(const std::string& model, const std::string& name) {
   return "";
 }
 
-/// Uncompressed Targa, whose order of channels is that of aiTexel.
+/// Returns an uncompressed Targa file, whose channels have the order of aiTexel.
 std::string targaOf(const aiTexture& texture) {
   std::string out(18, '\0');
   out[2] = 2;
@@ -75,7 +75,7 @@ std::string Textures::file(const std::string& name, aiTextureMapMode sWrap, aiTe
   return made->second;
 }
 
-/// Gives the file of a picture. One within the model is written below the folder of parts first.
+/// Returns the file of a picture. A picture inside the model is first written below the folder of parts.
 std::string Textures::pictureOf(const std::string& name) const {
   const aiTexture* inside = scene_.GetEmbeddedTexture(name.c_str());
   if (!inside || !inside->pcData) return foundBeside(settings_.model, name);

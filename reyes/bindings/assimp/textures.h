@@ -15,9 +15,9 @@ class Textures {
   Textures(const aiScene& scene, const Settings& settings, Parts& parts, Log& log)
       : scene_(scene), settings_(settings), parts_(parts), log_(log) {}
 
-  /// Returns the name in the RIB of the picture that a material calls `name`, in the model file itself or beside it. It
-  /// is converted here, because untiled pictures do not wrap (docs/shader_writing.md). Empty: it is missing or
-  /// unreadable, which is reported.
+  /// Returns the name in the RIB of the picture that a material calls `name`, which is in the model file itself or
+  /// beside it. The picture is converted here, because untiled pictures do not wrap (docs/shader_writing.md). Returns
+  /// an empty name if it is missing or unreadable, which is reported.
   std::string file(const std::string& name, aiTextureMapMode sWrap, aiTextureMapMode tWrap);
 
  private:

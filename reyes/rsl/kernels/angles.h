@@ -1,4 +1,5 @@
-// Sines and cosines of a block: angles that are too far out for the fast way are taken one by one.
+// Reduces the angles of a block for sines and cosines. Angles that are too large for the fast way are reduced one by
+// one.
 #pragma once
 #include "reyes/rsl/kernels/points.h"
 #include "reyes/rsl/kernels/transcendental.h"

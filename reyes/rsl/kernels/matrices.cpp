@@ -9,8 +9,8 @@ using rsl::Vec3;
 
 namespace {
 
-/// Multiplies a matrix by a new transformation that comes first: each block of `out` is the MatrixBlock that `left`
-/// sets, times that block of the first argument.
+/// Puts a new transformation before a matrix: each block of `out` is the MatrixBlock that `left` sets times the block
+/// of the first argument.
 template <class Left>
 RSL_INLINE void before(int blocks, const Lanes& out, const Lanes* in, const Left& left) {
   for (int b = 0; b < blocks; ++b) {
@@ -21,7 +21,8 @@ RSL_INLINE void before(int blocks, const Lanes& out, const Lanes* in, const Left
   }
 }
 
-/// The index among the sixteen numbers, from a row and a column of 0 to 3, each rounded down; NaN counts as 0.
+/// Computes the index among the sixteen numbers from a row and a column, each rounded down and clamped to 0..3; NaN
+/// counts as 0.
 RSL_INLINE void placesOf(const Lanes& row, const Lanes& column, int b, float* places) {
   const auto held = [](float x) RSL_INLINED {
     return (x >= 1 ? 1.0f : 0.0f) + (x >= 2 ? 1.0f : 0.0f) + (x >= 3 ? 1.0f : 0.0f);

@@ -42,8 +42,8 @@ RSL_INLINE void multiply(const MatrixBlock& a, const MatrixBlock& b, MatrixBlock
           a.at[i][3][k] * b.at[3][j][k];
 }
 
-/// Does rsl::invert() at all points at once. `right` must be the identity at first, and `left` is used up. Where a
-/// column has no pivot, `exists` becomes 0 and `right` means nothing.
+/// Does rsl::invert() at all points at once. `right` must be the identity at first, and `left` is overwritten. Where a
+/// column has no pivot, `exists` becomes 0 and `right` is meaningless.
 RSL_INLINE void invert(MatrixBlock& left, MatrixBlock& right, float* determinant, float* exists) {
   for (int k = 0; k < kBlock; ++k) determinant[k] = exists[k] = 1;
   for (int c = 0; c < 4; ++c) {

@@ -14,7 +14,7 @@ using rsl::Vec3;
 RSL_INLINE float cellOf(const rsl::LatticePlace& p) { return rsl::cellnoiseAt(p, 0); }
 
 /// Makes kernels of noise that give a number or a triple: value(at) is the noise at a LatticePlace, `place` the
-/// position that `parameters` mean. The components of a triple look at places far from each other.
+/// position that `parameters` mean. The components of a triple are taken at places far from each other.
 #define RSL_LATTICE_NOISE(name, parameters, place, value)                                            \
   RSL_INLINE void name##At(int blocks, const Lanes& out, const Lanes* in, Vec3 far) {                \
     eachByReach(                                                                                     \

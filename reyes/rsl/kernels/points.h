@@ -1,4 +1,4 @@
-// The tools to write a kernel as a function of one point: each() applies it to the sixteen points of a block in a loop
+// Helpers to write a kernel as a function of one point: each() applies it to the sixteen points of a block, in a loop
 // that the compiler vectorises, once for each kind of processor.
 #pragma once
 #include <cstddef>
@@ -11,8 +11,8 @@
 /// The head of the kernel that the table calls `name`.
 #define RSL_KERNEL(name) RSL_HOT void name(int blocks, const Lanes& out, const Lanes* in)
 
-/// Belongs before a loop over the points of a block. A written point is read at the same point alone (kernels.h), so
-/// the order does not count; and the loop must not be unrolled before it is vectorised.
+/// Stands before a loop over the points of a block. Points do not depend on each other (kernels.h), so their order does
+/// not matter; and the loop must not be unrolled before it is vectorised.
 #if defined(__GNUC__) && !defined(__clang__)
 #define RSL_LANES _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
 #else
@@ -30,7 +30,7 @@ RSL_INLINE float* planeOf(const Lanes& l, int b, int c = 0) {
   return l.data + static_cast<ptrdiff_t>(b) * l.block + static_cast<ptrdiff_t>(c) * l.component;
 }
 
-/// Calls memcpy, since the compiler would turn a loop into a call.
+/// Uses memcpy, because the compiler would turn a loop into a call.
 RSL_INLINE void copyBlock(float* to, const float* from) { std::memcpy(to, from, kBlock * sizeof(float)); }
 
 /// The values of one block, by point.
@@ -74,8 +74,8 @@ RSL_INLINE void each(int blocks, const Lanes& out, const Lanes* in, const Op& op
   eachBlock(blocks, out, in, op, &Op::operator(), argumentsOf(&Op::operator()));
 }
 
-/// The same with a shorter computation for points that are near: `isNear`, `near` and `far` take what `op` takes. A
-/// block is computed by `near` if isNear holds at all of its points.
+/// Does the same as eachBlock(), with a cheaper function `near` for blocks where isNear holds at all points, and `far`
+/// for all others. All three take the arguments of `op`.
 template <class IsNear, class Near, class Far, class Out, class... In, int... argument>
 RSL_INLINE void eachBlockByReach(int blocks, const Lanes& out, const Lanes* in, const IsNear& isNear, const Near& near,
                                  const Far& far, Out (Far::*)(In...) const, std::integer_sequence<int, argument...>) {

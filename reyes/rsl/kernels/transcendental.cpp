@@ -3,7 +3,7 @@
 namespace tomales::compiler::kernels {
 
 /// Payne and Hanek 1983, "Radian reduction for trigonometric functions": x is a whole number times 2^e. Multiples of
-/// four of its product with 2/pi do not count, so 128 bits of 2/pi are enough, from a place that e gives.
+/// four in its product with 2/pi do not matter, so 128 bits of 2/pi suffice, from a place that e determines.
 Angle farAngleOf(float x) {
   if (!(std::abs(x) < static_cast<float>(kInfinite))) return {kNone, 0};
   static constexpr uint32_t kTwoOverPi[] = {0,          0xa2f9836e, 0x4e441529, 0xfc2757d1, 0xf534ddc0,

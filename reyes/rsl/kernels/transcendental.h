@@ -1,8 +1,8 @@
-// Exponentials, angles and the error function of one number each, without a branch and without the C library, whose
-// bits differ between machines. All of them compute in double precision and round once, so a result is within 0.54 ulp
-// of the true value. The polynomials are minimax fits (Remez' algorithm, relative error), none worse than 2e-9, which
-// is 1/30 ulp. Infinities and NaN give what C gives; where mathematics has no value, the functions give what shadeops.h
-// gives.
+// Exponentials, trigonometric functions and the error function of one number each, without a branch and without the C
+// library, whose bits differ between machines. All of them compute in double precision and round once, so a result is
+// within 0.54 ulp of the true value. The polynomials are minimax fits (Remez' algorithm, relative error), none worse
+// than 2e-9, which is 1/30 ulp. Infinities and NaN give what C gives; where mathematics has no value, the functions
+// give what shadeops.h gives.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -20,14 +20,14 @@ constexpr double kRounding = 0x1.8p52;
 
 RSL_INLINE uint64_t bitsOf(double x) { return std::bit_cast<uint64_t>(x); }
 RSL_INLINE double doubleOf(uint64_t bits) { return std::bit_cast<double>(bits); }
-/// c + x (more...).
+/// Returns c + x (more...), by Horner's rule.
 RSL_INLINE double polynomial(double, double c) { return c; }
 template <class... More>
 RSL_INLINE double polynomial(double x, double c, More... more) {
   return c + x * polynomial(x, more...);
 }
 
-/// 2^x, or 0 or infinity where a float cannot hold that.
+/// Returns 2^x; 0 or infinity if a float cannot hold it.
 RSL_INLINE double exp2Of(double x) {
   const double held = x < -200 ? -200 : x > 200 ? 200 : x, sum = held + kRounding, rest = held - (sum - kRounding);
   return polynomial(rest, 1.0000000005542286, 0.69314720573750282, 0.2402264689059557, 0.055503287766818073,
@@ -59,7 +59,7 @@ RSL_INLINE float powOf(float x, float y) {
                      std::copysign(power, rsl::chosen(odd, x, 1)));
 }
 
-/// x less the nearest whole number of quarter turns, and that number, whose last two bits count.
+/// x minus the nearest whole number of quarter turns, and that number, of which only the last two bits matter.
 struct Angle {
   double rest;
   uint64_t quarters;
@@ -115,7 +115,7 @@ RSL_INLINE float atan2Of(float y, float x) {
   const double angle = unitArctangentOf(ratio), first = steep ? kHalfPi - angle : angle;
   return std::copysign(static_cast<float>(std::signbit(x) ? 2 * kHalfPi - first : first), y);
 }
-/// The arcsine of a number in [0, 1], and the rest to a right angle.
+/// The arcsine of a number in [0, 1], and its complement to a right angle.
 struct Arcsine {
   double value, rest;
 };
@@ -144,8 +144,8 @@ RSL_INLINE double smallErfOf(double x) {
                         0.0052237764007241372, -0.00085424888359581399, 0.00011954817490883131, -1.3898693347413725e-5,
                         1.0562961533863376e-6);
 }
-/// Returns erfc of a number in [1/2, infinity), as far as a float can hold it: exp(-x^2) times a polynomial (as
-/// Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2) erfc(x)").
+/// Returns erfc of a number in [1/2, infinity), as far as a float can hold it: exp(-x^2) / (1 + 2x) times a polynomial
+/// (as Shepherd and Laframboise 1981, "Chebyshev approximation of (1+2x) exp(x^2) erfc(x)").
 RSL_INLINE double largeErfcOf(double value) {
   const double x = value > 10.25 ? 10.25 : value, t = (x - 2) / (x + 2);
   return exp2Of(-kLog2OfE * x * x) / (1 + 2 * x) *

@@ -1,4 +1,4 @@
-// One call of a service: gives it the arguments as arrays, and puts its results into registers.
+// One call of a service: passes the arguments as arrays, and puts the results into registers.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace tomales::compiler {
 
-/// When it ends, results are in their registers, for active points. In temporaries the other points hold 0.
+/// At its end the results are in their registers, for active points. In temporaries the other points hold 0.
 class Call {
  public:
   Call(Run& r, const PreparedInstruction& s) : run(r), of(*s.of) {}
@@ -22,13 +22,14 @@ class Call {
 
   bool has(size_t k) const { return k < of.in.size() && of.in[k] >= 0; }
   TmConstVec3 triple(size_t k) { return tripleOf(of.in[k]); }
-  /// Returns a copy of an argument, which the body of a loop cannot assign.
+  /// Returns a copy of an argument, so that the body of a loop cannot change it.
   TmConstVec3 copied(size_t k);
   const float* number(size_t k) { return numberOf(of.in[k]); }
   const char* text(size_t k) const { return run.text(of.in[k]).c_str(); }
-  /// Returns the value for all points. If points differ it is that of the first active one, and a warning is given.
+  /// Returns one value for all points. If points differ, it is that of the first active point, and a warning is
+  /// reported.
   float one(size_t k, const char* what);
-  /// Returns the same as a whole number, 0 if it does not fit an int.
+  /// Returns one() as a whole number; 0 if it does not fit an int.
   int32_t whole(size_t k, const char* what);
 
   /// Returns the arrays for the service to fill.
@@ -36,7 +37,7 @@ class Call {
   float* giveNumber(size_t k = 0) { return giveNumberTo(of.out[k]); }
   /// Sets a result to one value at all active points.
   void set(float value, size_t k = 0);
-  /// Copies what the service has given so far to registers of one value.
+  /// Copies results of the service so far to their registers of one value.
   void finish();
 
   TmConstVec3 tripleOf(int32_t r);
@@ -53,11 +54,11 @@ class Call {
     const float* from;
     int32_t component;
   };
-  std::vector<Pending> pending_;  ///< Registers of one value for which the service gives one a point.
+  std::vector<Pending> pending_;  ///< Registers of one value for which the service writes one value for each point.
 };
 
-/// Puts a value that ask() or textureInfo() has given into a register, for active points. Returns false, and changes
-/// nothing, if it has another type.
+/// Puts a value from ask() or textureInfo() into a register, for active points. Returns false, and changes nothing, if
+/// it has another type.
 bool fill(Run& run, int32_t to, int32_t type, const TmValue& v);
 
 }  // namespace tomales::compiler

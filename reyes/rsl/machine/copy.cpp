@@ -60,7 +60,7 @@ void tellOutside(Run& run, int32_t array) {
            " has not; the nearest is taken");
 }
 
-/// Returns the elements that all points ask for; those that are not active may ask for any number.
+/// Returns the elements that all points ask for; inactive points may ask for any.
 const int32_t* elements(Run& run, int32_t array, int32_t index) {
   int32_t* const out = reinterpret_cast<int32_t*>(run.memory.floats(static_cast<size_t>(run.padded)));
   const float* const wanted = run.lane(index).data;

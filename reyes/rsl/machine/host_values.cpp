@@ -95,7 +95,7 @@ Source sourceOf(Global global, ShaderKind kind, const TmGrid& g) {
   return {};
 }
 
-/// Gives the register the values of the source, without a copy where that is possible.
+/// Gives the register the values of the source, without a copy if possible.
 void take(Run& run, int32_t r, const Source& s) {
   Lanes& l = run.lanes[r];
   const Located& located = run.program.located(r);
@@ -242,7 +242,7 @@ void open(Run& run) {
 
 void store(Run& run) {
   bool Ci = false, Oi = false;
-  // Control may have taken points out, but what they have computed counts.
+  // Control structures may have made points inactive, but their results still count.
   if (!run.everywhere) begin(run.padded, run.count, run.given.active, run.whole.on);
   for (const int32_t r : run.program.ofHost()) {
     if (isOutput(run, run.reg(r))) storeOutput(run, r);

@@ -22,7 +22,7 @@ TmType typeOf(Base base) {
   }
 }
 
-/// Returns the type of a value, told by its register's shape if its type in the source is unknown.
+/// Returns the type of a value, from its register's shape if its type in the source is unknown.
 TmType typeOf(const Register& r, Base base) {
   switch (r.shape) {
     case Shape::Number:

@@ -1,4 +1,4 @@
-// The optional list of an instruction, as the tables of reyes/shader/lists.h take it.
+// The optional list of an instruction, in the form of the tables of reyes/shader/lists.h.
 #pragma once
 #include "reyes/rsl/machine/call.h"
 #include "reyes/shader/lists.h"
@@ -10,7 +10,7 @@ rsl::Setting settingOf(Call& call, const Setting& entry);
 /// Reports what is wrong with an entry; `taken` is what set() returned for it.
 void tell(Call& call, const std::string& name, const rsl::Setting& value, const rsl::Entry& taken);
 
-/// Returns the options, changed as the list says. An entry that `others` (name, entry, value) takes is not an option.
+/// Returns the options, changed by the list. An entry for which others(name, entry, value) returns true is no option.
 template <class Options, class Others>
 Options listed(Call& call, Options options, const Others& others) {
   using rsl::set;

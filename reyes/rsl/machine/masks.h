@@ -4,13 +4,15 @@
 
 namespace tomales::compiler {
 
-// --- These work on n bytes of masks (a multiple of kBlock).
+// --- These work on n bytes of masks; n is a multiple of kBlock.
 
-/// Sets `on` to 1 where `active` of the first `count` points is not 0, else to 0. Returns whether there are any.
+/// Sets `on` to 1 where `active` is not 0 among the first `count` points, and to 0 elsewhere. Returns whether any are
+/// 1.
 bool begin(int n, int count, const uint8_t* active, uint8_t* on);
-/// Splits outer: inner where `condition` is not 0, other where it is. inner may be outer. Tells whether inner has any.
+/// Splits `outer` into `inner`, where `condition` is not 0, and `other`, where it is. `inner` may be `outer`. Returns
+/// whether `inner` has any points.
 bool narrow(int n, const uint8_t* outer, const float* condition, uint8_t* inner, uint8_t* other, bool& anyOther);
-/// Takes the points of `leaving` out. Returns whether any remain.
+/// Removes the points of `leaving`. Returns whether any remain.
 bool remove(int n, const uint8_t* leaving, uint8_t* from);
 bool both(int n, const uint8_t* a, const uint8_t* b, uint8_t* out);
 void copyWhere(int n, const uint8_t* on, const float* from, float* to);

@@ -17,7 +17,7 @@ class Memory {
   /// Returns memory on a 64-byte boundary, which may hold any values.
   float* floats(size_t n) { return floats_.floats(n); }
   uint8_t* bytes(size_t n) { return reinterpret_cast<uint8_t*>(floats((n + 3) / 4)); }
-  /// Makes n texts, all empty, and returns the number of the first.
+  /// Makes n empty texts, and returns the index of the first.
   size_t openTexts(size_t n) {
     const size_t first = openTexts_;
     openTexts_ += n;
@@ -44,7 +44,7 @@ class Memory {
   std::deque<std::string> texts_;  // references stay valid
 };
 
-/// Gives back, when it ends, the memory that was handed out in its life.
+/// Gives back, at the end of its life, the memory that was handed out during it.
 class Borrowed {
  public:
   explicit Borrowed(Memory& memory) : memory_(memory), mark_(memory.mark()) {}

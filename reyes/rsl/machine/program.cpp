@@ -69,8 +69,8 @@ void Program::find(const Block& block) {
   }
 }
 
-/// Finds registers that are written at all points before anything reads them. Code behind a loop does not count as
-/// written: it may never be reached, since an endless loop is left (control.cpp).
+/// Finds registers that are written at all points before anything reads them. Code after a loop does not count, because
+/// it may never be reached: an endless loop ends the run (control.cpp).
 void Program::findOverwritten() {
   std::vector<bool> touched(located_.size(), false);
   for (const Instruction& i : code_.body) {

@@ -1,4 +1,4 @@
-// A compiled shader that is ready to run, with all that can be known of its code before there is a batch. It is
+// A compiled shader that is ready to run, with everything about its code that can be found without a batch. It is
 // constant, and threads share it.
 #pragma once
 #include "reyes/base/simd.h"
@@ -22,7 +22,7 @@ struct PreparedInstruction {
   int32_t components = 1;  ///< The number of components of the result, where a kernel does one at a time.
   int32_t component = 0;   ///< The component that Op::Component reads, where that is constant.
   bool uniform = false;    ///< The result is one value for the batch.
-  bool left[2] = {};       ///< Something leaves the label `extra`, or `extra` + 1, of a Scope or Loop.
+  bool left[2] = {};       ///< Whether a Leave names the label `extra`, or `extra` + 1, of this Scope or Loop.
   std::vector<PreparedBlock> blocks;
 };
 
@@ -32,7 +32,7 @@ enum class Where : uint8_t {
   Constant,  ///< It lies `at` floats behind the program's first constant.
   Varying,   ///< It lies `at` floats for each point behind the run's first.
   Uniform,   ///< It lies `at` values behind the run's first.
-  Given,     ///< The grid's arrays are used if they can be; else it is as Varying.
+  Given,     ///< The grid's arrays are used if possible; otherwise it is as Varying.
   Texts,     ///< The run's text number `at`; a constant is a text of the code.
 };
 struct Located {
@@ -47,7 +47,7 @@ struct Located {
 
 class Program {
  public:
-  /// The code must have been through all passes. (Registers without a slot get room of their own.)
+  /// Pre: all passes have run over the code. (Registers without a slot get room of their own.)
   explicit Program(Code code);
   Program(const Program&) = delete;
 
@@ -58,7 +58,8 @@ class Program {
   const PreparedBlock& body() const { return body_; }
   /// Returns the globals and parameters that are used, in the order of their numbers.
   const std::vector<int32_t>& ofHost() const { return ofHost_; }
-  /// Registers that may be read before they are written: floats a point (varying) or values (uniform), [from, to).
+  /// Registers that may be read before they are written, as a range [from, to) of floats for each point (varying) or of
+  /// values (uniform).
   struct Cleared {
     bool varying;
     int32_t from, to;

@@ -49,7 +49,7 @@ Run::Run(const Program& p, const TmGrid& g)
   }
   whole.on = memory.bytes(points);
   whole.any = begin(padded, count, g.active, whole.on);
-  // Points are taken out by masks within this one, or all at once.
+  // Points become inactive only through inner masks, or all at once.
   everywhere = count == padded && std::memchr(whole.on, 0, points) == nullptr;
 }
 

@@ -6,12 +6,12 @@
 
 namespace tomales::compiler {
 
-/// The active points, as control structures have narrowed them. Masks are nested: a point of an inner one is in all
-/// around it. Each point has a byte, 1 or 0, as in TmGrid::active; bytes beyond the batch are 0.
+/// The active points, after narrowing by control structures. Masks are nested: a point of an inner mask is in all outer
+/// ones. Each point has a byte, 1 or 0, as in TmGrid::active; bytes beyond the batch are 0.
 struct Mask {
   uint8_t* on = nullptr;
   bool any = true;   ///< Some points are active.
-  bool full = true;  ///< All points that were active at first still are. (The others do not matter.)
+  bool full = true;  ///< All points that were active at the start still are; others do not matter.
   Mask* outer = nullptr;
   int32_t label = -1;  ///< The label whose Leave ends here.
 };
@@ -30,11 +30,11 @@ struct Run {
   size_t texts = 0;        ///< The number of this run's first text.
   Mask whole;
   Mask* mask = &whole;
-  bool everywhere = false;  ///< True if all points were active at first and there is no padding.
+  bool everywhere = false;  ///< True if all points were active at the start and there is no padding.
   int32_t light = -1;       ///< The light of the illuminance loop that is running; -1 if none is.
   int32_t randoms = 0;      ///< The number of calls of random() so far.
   float specularScale = 0;  ///< 0 until it has been asked for.
-  int64_t iterations = 0;   ///< The number of turns of all loops together.
+  int64_t iterations = 0;   ///< The iterations of all loops together.
 
   const Register& reg(int32_t r) const { return program.reg(r); }
   const Lanes& lane(int32_t r) const { return lanes[r]; }
@@ -58,7 +58,7 @@ struct Run {
   void missing(const std::string& message);
 };
 
-/// Lets a register use these arrays of `width` components. Returns false if they do not lie evenly apart.
+/// Lets a register use these arrays of `width` components. Returns false if their distances differ.
 bool useArrays(Lanes& l, int32_t width, const float* x, const float* y, const float* z);
 
 /// Sets the registers of globals and parameters before the program runs; store() takes its results (both in

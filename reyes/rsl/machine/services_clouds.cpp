@@ -14,7 +14,8 @@ TmCloudOptions optionsOf(Call& call, const rsl::CloudList& list) {
   return options;
 }
 
-/// Takes file, description of the channels (their values tell the same), P, N; settings are options and values.
+/// Takes the file, a description of the channels (which follows from their values anyway), P and N; settings are
+/// options and values.
 void bake3d(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   std::vector<TmChannel> values;
@@ -62,7 +63,7 @@ void photonMap(Run& run, const PreparedInstruction& s) {
                           found);
 }
 
-/// E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
+/// Gives E/pi from the photon map of Attribute "photon" "causticmap"; black if there is none.
 void caustic(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmVec3 out = call.giveTriple();
@@ -76,7 +77,7 @@ void caustic(Run& run, const PreparedInstruction& s) {
   call.services.photonMap(call.host, call.g, v.string, &options, call.triple(0), call.triple(1), out);
 }
 
-/// Takes file, P and N. The approximation does not look at N.
+/// Takes the file, P and N. The approximation ignores N.
 void subsurface(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmSubsurfaceOptions options = listed(call, tmSubsurfaceDefaults());

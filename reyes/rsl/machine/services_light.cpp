@@ -110,7 +110,7 @@ void illuminance(Run& run, const PreparedInstruction& s) {
   query.sent = sent.data();
   query.sentCount = static_cast<int32_t>(sent.size());
   query.refresh = list.refresh;
-  // The mask must be the same until there are no more samples, whatever points leave in between.
+  // The mask must stay the same until there are no more samples, even if points leave the loop.
   const auto n = static_cast<size_t>(run.padded);
   uint8_t *const asked = run.memory.bytes(n), *const lit = run.memory.bytes(n);
   std::copy_n(run.mask->on, n, asked);
@@ -129,7 +129,8 @@ void apply(Run& run, Op op, float* in, float* out) {
   kernelOf(op)(run.blocks, to, &from);
 }
 
-/// A direction in a cone: even over its solid angle if the host gives random numbers, else the axis (sl::solar()).
+/// Gives a direction in a cone: uniform over its solid angle if the host gives random numbers, otherwise the axis
+/// (sl::solar()).
 void coneLight(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmConstVec3 axis = call.triple(0);
@@ -159,7 +160,7 @@ void coneLight(Run& run, const PreparedInstruction& s) {
   }
 }
 
-/// Turns the host's direction round: L of RSL leads from the light.
+/// Reverses the host's direction, because RSL's L points from the light.
 void skyLight(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const TmVec3 out = call.giveTriple();

@@ -4,7 +4,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Gives 1, and the value of the settings' one entry, if there is one of that name and type; else 0.
+/// Gives 1, and sets the one entry of the settings, if there is a value of that name and type; otherwise gives 0.
 void ask(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   int32_t type = 0;

@@ -4,7 +4,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Copies a matrix from the first active point, since it counts for all.
+/// Copies the matrix of the first active point, which counts for all.
 TmValue matrixOf(Run& run, int32_t r) {
   float* const to = run.memory.floats(16);
   const Lanes& l = run.lane(r);
@@ -13,7 +13,7 @@ TmValue matrixOf(Run& run, int32_t r) {
   return {{to, nullptr, nullptr}, 0, 1, nullptr};
 }
 
-/// Refers to a number or triple where it lies.
+/// Refers to a number or triple in place.
 TmValue valueOf(const Run& run, int32_t r, Base base) {
   const Lanes& l = run.lane(r);
   TmValue v{{l.data, nullptr, nullptr}, l.block != 0, 1, nullptr};

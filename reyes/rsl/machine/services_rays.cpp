@@ -32,11 +32,11 @@ void transmission(Run& run, const PreparedInstruction& s) {
                              call.giveTriple());
 }
 
-/// The rays of a hemisphere if a shader does not say how many, as those of the lights that ask for one.
+/// The rays of a hemisphere if a shader does not give their number; indirect lights have the same default.
 constexpr int32_t kRaysOfHemisphere = 64;
 
 /// occlusion() gives a number, indirectdiffuse() a color. Both take P, N and samples, and settings. Shaders give 0
-/// samples where a map or a point cloud should answer, and "samples" among the settings for a map.
+/// samples if a map or a point cloud should answer, and "samples" among the settings for a map.
 void hemisphere(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   rsl::HemisphereList list;

@@ -7,7 +7,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// The change of a value over one micropolygon. Pure, so it works on all points, active or not.
+/// Gives the change of a value over one micropolygon. It is pure, so it works on all points, active or not.
 template <int direction>
 void step(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
@@ -38,7 +38,8 @@ void transformSpace(Run& run, const PreparedInstruction& s) {
                           call.giveTriple());
 }
 
-/// Asks where a space has the origin and the ends of the axes of another; a fifth point tells if the map is affine.
+/// Finds the matrix between two spaces from the origin and the ends of the axes; a fifth point shows whether the map is
+/// affine.
 void spaceMatrix(Run& run, const PreparedInstruction& s) {
   Call call(run, s);
   const auto n = static_cast<size_t>(run.padded);

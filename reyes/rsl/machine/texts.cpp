@@ -20,7 +20,7 @@ void match(Run& run, const PreparedInstruction& s) {
   setNumber(run, s.of->out[0], rsl::match(run.text(s.of->in[0]), run.text(s.of->in[1])) ? 1.0f : 0.0f);
 }
 
-/// Gives a register its text. One that grows without end, as `a = concat(a, a)` in a loop does, is cut.
+/// Gives a register its text. A text that grows without end, as by `a = concat(a, a)` in a loop, is cut.
 void setText(Run& run, const PreparedInstruction& s, std::string value) {
   if (value.size() > kLongestText) {
     run.missing(fmt::format("a text would be longer than {} bytes; it is cut", kLongestText));

@@ -1,5 +1,5 @@
-// Class shaders of RSL 2. One whose methods the renderer calls at fixed places says nothing that a shader of RSL 1
-// could not say: its members become variables of that, its methods functions, and the calls its last statements.
+// Class shaders of RSL 2. A class whose methods the renderer calls at fixed places is equivalent to a shader of RSL 1:
+// its members become variables, its methods functions, and the calls its last statements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// A method that the renderer calls, and what it is called with: variables of shaders of its kind.
+/// A method that the renderer calls, and its arguments, which are variables of shaders of its kind.
 struct Called {
   std::string_view method;
   std::optional<ShaderKind> kind;  ///< None if it belongs to all.
@@ -46,14 +46,14 @@ bool isOfKind(const Called& c, ShaderKind kind) {
   return !c.kind || c.kind == kind || (kind == ShaderKind::Surface && c.kind == ShaderKind::Displacement);
 }
 
-/// Tells whether another method is called in its place. A class may call it by itself.
+/// Tells whether another method is called instead. The class may still call this one itself.
 bool isReplaced(const Called& c, const Stmt& body) {
   if (c.method == "surface") return hasMethod(body, {"lighting"});
   if (c.method == "diffuselighting" || c.method == "specularlighting") return hasMethod(body, {"surface", "lighting"});
   return false;
 }
 
-/// Returns the kinds of shaders that a class is by its methods. A surface comes first, which has those of a
+/// Returns the kinds of shaders that a class is, from its methods. A surface comes first; it may have the methods of a
 /// displacement too.
 std::vector<ShaderKind> kindsOf(const Stmt& body) {
   std::vector<ShaderKind> out;
@@ -65,8 +65,8 @@ std::vector<ShaderKind> kindsOf(const Stmt& body) {
   return out;
 }
 
-/// A parameter of the method that has the name of the variable which it would be given is that variable. So the
-/// parameter goes, and so does the argument where the class itself calls the method with that variable.
+/// Replaces parameters of a method by the variables that they are given, if they have the same name. Such a parameter
+/// is removed, and so is the argument where the class itself calls the method.
 class SharedVariables {
  public:
   /// Takes out the parameters.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int32_t kMostElements = 1 << 20;
 
-/// Tells whether a member of a class may begin with the word. None of these changes what is computed.
+/// Tells whether the word is a modifier of class members. None of these changes the results.
 bool isOfMembers(std::string_view word) { return word == "public" || word == "private" || word == "constant"; }
 
 bool isSpecifier(std::string_view word) {

@@ -11,7 +11,8 @@ struct Operator {
   std::string_view text;
   int level;
 };
-/// RISpec 3.2 appendix B. A smaller number binds less. Unary operators and casts bind tighter than all of these.
+/// Operators and their precedence (RISpec 3.2 appendix B); a higher number binds tighter. Unary operators and casts
+/// bind tighter than all of these.
 constexpr Operator kOperators[] = {{"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<", 4}, {"<=", 4}, {">", 4},
                                    {">=", 4}, {"+", 5},  {"-", 5},  {"^", 6},  {"*", 7}, {"/", 7},  {".", 8}};
 
@@ -69,10 +70,11 @@ void Parser::adopt(Expr& parent, ExprPtr child) {
 
 bool Parser::isDoubledSign() const { return (here().is("+") || here().is("-")) && here(1).is(here().text); }
 
-// i++, which RISpec does not have, but some compilers do. Its value is that before.
+// i++ is not in RISpec, but some compilers have it. Its value is the old one.
 bool Parser::isIncrement() const { return isDoubledSign() && endsOperand(here(2)); }
 
-// ++i and --a[1]. Signs that do not touch, as in - -y, or come from macros, are two signs, and so are all of a---b.
+// Recognizes ++i and --a[1]. Signs that do not touch, as in - -y, or that come from macros, are separate signs, and so
+// are all signs of a---b.
 bool Parser::isEarlyIncrement() const {
   const bool isThird = at_ > 0 && tokens_[at_ - 1].is(here().text) && touches(tokens_[at_ - 1], here());
   return isDoubledSign() && touches(here(), here(1)) && !isThird && here(2).kind == TokenKind::Name &&

@@ -1,5 +1,5 @@
-// Recursive descent over a row of tokens. An error is thrown as Failed once it has been reported, and caught where
-// reading can go on: at the next statement or definition.
+// Recursive descent over a list of tokens. After an error has been reported, Failed is thrown. It is caught where
+// parsing can go on, at the next statement or definition.
 #pragma once
 #include <initializer_list>
 
@@ -44,7 +44,7 @@ class Parser {
   void expect(std::string_view punctuator);
   void expectClosing(std::string_view punctuator, const Token& open);
   const Token& expectName(std::string_view what);
-  /// Reports "expected X before 'word'" for the next word, with the word of `known` that was perhaps meant.
+  /// Reports "expected X before 'word'" for the next word, and suggests a word of `known` that may have been meant.
   [[noreturn]] void fail(std::string text, const std::vector<std::string>& known = {});
   [[noreturn]] void failAt(const Token& token, std::string text);
   void error(const Token& token, std::string text);
@@ -91,7 +91,7 @@ class Parser {
   // expressions.cpp
   ExprPtr expression();  ///< Commas included.
   ExprPtr assignment();
-  /// Fails if a value cannot be assigned to it.
+  /// Fails if `variable` cannot be assigned.
   void checkAssigned(const Expr& variable, const Token& sign, bool isReadToo);
   bool isDoubledSign() const;
   bool isIncrement() const;

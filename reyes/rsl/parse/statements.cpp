@@ -26,7 +26,7 @@ StmtPtr Parser::block() {
   return out;
 }
 
-/// Reads a statement. After one with an error it goes on behind it.
+/// Reads a statement. After an error it continues behind the statement.
 void Parser::statementInto(std::vector<StmtPtr>& out) {
   const size_t before = at_;
   try {
@@ -66,7 +66,7 @@ StmtPtr Parser::statement() {
   return expressionStatement();
 }
 
-/// Fails on two words beside each other whose first cannot begin a statement.
+/// Fails on two adjacent words, of which the first cannot begin a statement.
 void Parser::failNoStatement() {
   static const std::map<std::string_view, const char*> kOfOtherLanguages{
       {"int", "RSL has no 'int': every number is a 'float'"},

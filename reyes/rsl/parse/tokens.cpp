@@ -49,7 +49,7 @@ void Parser::failAt(const Token& token, std::string text) {
   throw Failed{};
 }
 
-/// Blames the end of the line before, if the token begins a line.
+/// If the token begins a line, the error is placed at the end of the previous line.
 void Parser::fail(std::string text, const std::vector<std::string>& known) {
   const Token& t = here();
   if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, inQuotes(t.text));

@@ -1,4 +1,4 @@
-// Finds in the code what the host wants to know before it runs a shader, so that no author has to declare it.
+// Finds in the code the facts that the host needs before it runs a shader, so that no author has to declare them.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -92,8 +92,8 @@ class Analysis {
     return keeps;
   }
 
-  /// Finds the greatest set of registers for which `holds` is true: all are in it at first, and one that an instruction
-  /// writes otherwise drops out, until nothing changes.
+  /// Finds the largest set of registers for which `holds` is true. At first it has all registers; a register is removed
+  /// if an instruction breaks the condition, until nothing changes.
   template <class Holds>
   std::vector<char> greatest(const Holds& holds) const {
     std::vector<char> in(code_.registers.size(), 1);
@@ -127,7 +127,7 @@ class Analysis {
     }
   }
 
-  /// Points that have left do not run the code behind a Leave, so no result there keeps what it held.
+  /// Points that have left do not run the code after a Leave, so results there may miss some points.
   template <class Drop>
   void dropGlobals(const Drop& drop) const {
     for (size_t k = 0; k < code_.registers.size(); ++k)
@@ -136,7 +136,7 @@ class Analysis {
 
   /// The condition that a value is black where no light is: the surface reflects, but does not emit.
   struct Dark {
-    bool startsOver;  ///< True if Ci does not count as Cs at first.
+    bool startsOver;  ///< True if the first value of Ci, which is Cs, does not matter.
     static constexpr bool followsControl = false;
     bool starts(const Register& r, const Code&) const {
       if (r.origin == Origin::Constant) {

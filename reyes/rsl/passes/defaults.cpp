@@ -1,5 +1,5 @@
-// Defaults that a shader computes when it runs. Others may ask for such a value when the shader does not run, or runs
-// elsewhere, so the part of the code that finds it can be run alone.
+// Defaults that a shader computes when it runs. Other shaders may ask for such a value when this shader is not running,
+// or for other points, so the part of the code that computes it can run alone.
 #include <algorithm>
 #include <set>
 
@@ -22,8 +22,8 @@ void forEachWithin(const Instruction& i, bool reads, const Visit& visit) {
   for (const Block& inner : i.blocks) forEach(inner, look);
 }
 
-/// Drops instructions on which the registers do not depend. (removeUnused() does not: each default reads whether its
-/// own parameter is missing.)
+/// Drops instructions on which the registers do not depend. (removeUnused() does not drop them: each default tests
+/// whether its own parameter is missing.)
 void keepFor(Block& body, std::set<int32_t> needed) {
   Block kept;
   for (auto i = body.rbegin(); i != body.rend(); ++i) {

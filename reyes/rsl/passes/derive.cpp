@@ -1,7 +1,7 @@
-// Derivatives by forward differentiation of the code itself. Each register that a Step needs gets two more, its changes
-// over one micropolygon along u and v; behind each instruction that writes the register come those that write its
-// changes. Short rules are written by hand (rules.cpp); else central differences are taken, f(x + dx/2) - f(x - dx/2).
-// Light does not change over a micropolygon.
+// Derivatives by forward differentiation of the code itself. Each register that a Step needs gets two more, for its
+// changes over one micropolygon along u and v. After each instruction that writes the register come instructions that
+// write its changes. Short rules are written by hand (rules.cpp); otherwise central differences f(x + dx/2) - f(x -
+// dx/2) are taken. Light is taken to be constant over a micropolygon.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -91,7 +91,7 @@ class Derivation {
     }
   }
 
-  /// Starts the globals and parameters that the shader changes with the change that the host knows.
+  /// Initialises the changes of globals and parameters that the shader assigns with the changes that the host knows.
   Block starts() {
     Block out;
     for (const int32_t r : needed_) {
@@ -111,8 +111,8 @@ class Derivation {
     return isOfHost(r) ? hostStep(r, side) : zero_;
   }
 
-  /// Asks the host for a change: it knows those of places, normals, coordinates and primitive variables. I changes as
-  /// the place that it leads to.
+  /// Asks the host for a change. It knows the changes of positions, normals, coordinates and primitive variables. I
+  /// changes like the position that it leads to.
   int32_t hostStep(int32_t r, Op side) {
     if (at(r).origin == Origin::Global) switch (static_cast<Global>(at(r).index)) {
         case Global::P:
@@ -183,7 +183,7 @@ class Derivation {
             .masked = i.masked};
   }
 
-  /// Sets the changes of the results to 0: they do not change, or nothing is known of how they do.
+  /// Sets the changes of the results to 0, because they do not change or their change is not known.
   void still(const Instruction& i, Block& out) {
     forEachWrite(i, [&](int32_t r) {
       if (!isNeeded(r)) return;

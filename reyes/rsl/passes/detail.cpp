@@ -43,7 +43,7 @@ class Inference {
     if (r.varying || r.shape == Shape::Text || r.origin == Origin::Constant) return;
     r.varying = changed_ = true;
   }
-  /// Tells whether a structure around varies, from the given depth on.
+  /// Tells whether an enclosing structure varies, from the given depth on.
   bool around(size_t depth) const {
     for (size_t k = depth; k < structures_.size(); ++k)
       if (structures_[k].varies) return true;
@@ -114,7 +114,7 @@ class Inference {
     if (given || (inPart && around(depth))) vary(reg);
   }
 
-  /// Has the code up to the label run for the other points alone, where some points leave.
+  /// Where some points leave, notes that the code up to the label runs only for the other points.
   void leave(const Instruction& i) {
     size_t from = structures_.size();
     while (from > 0 && !owns(*structures_[from - 1].instruction, i.extra)) --from;
@@ -154,7 +154,7 @@ void warnOfDetail(const Code& lowered, const std::vector<bool>& varying, Message
       messages.warning(i.place,
                        "a string is chosen by what differs from point to point; strings are the same for all "
                        "points, so the last choice that any point makes counts");
-    // Values that lights and messages give are not counted: they are mostly the same for all points.
+    // Values from lights and messages do not count, because they are mostly the same for all points.
     const bool given = code.registers[static_cast<size_t>(i.in[0])].varying;
     if (r.declared == Detail::Uniform && r.origin == Origin::Variable && given && told.insert(i.out[0]).second)
       messages.warning(r.place,

@@ -1,4 +1,4 @@
-// Computes constants once, by the kernels that would run them, and replaces copies of what never changes.
+// Computes constants once, by the kernels that would run them, and replaces copies of registers that never change.
 #include <map>
 #include <set>
 
@@ -77,7 +77,7 @@ class Folding {
       if (count == writes_[static_cast<size_t>(v)]) straight_.insert(v);
   }
 
-  /// Drops the 0 of a declaration that nobody reads before the first assignment, which becomes the first value.
+  /// Drops the 0 of a declaration if nothing reads it before the first assignment, which becomes the first value.
   void dropFirstValues(Block& block) {
     for (size_t k = 0; k < block.size(); ++k) {
       Instruction& first = block[k];

@@ -1,6 +1,6 @@
-// Surfaces that assign P. RISpec lets displacements alone move points, but renderers that shade before they hide let
-// surfaces do it too, and shaders of that time rely on it. So the shader becomes two: a displacement, whose colours
-// nobody sees, and a surface that finds its points where the displacement has put them.
+// Surfaces that assign P. RISpec lets only displacements move points, but renderers that shade before they hide let
+// surfaces do it too, and shaders of that time rely on it. So the shader becomes two: a displacement, whose colours are
+// dropped, and a surface whose points the displacement has moved.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -12,7 +12,7 @@ namespace {
 
 bool isP(const Register& r) { return r.origin == Origin::Global && r.index == static_cast<int32_t>(Global::P); }
 
-/// Tells whether the instruction prints or bakes: the surface does that as well, and once is enough.
+/// Tells whether the instruction prints or bakes. Only the surface does so, because once is enough.
 bool speaks(const Instruction& i) { return i.op == Op::Print || i.op == Op::Report || i.op == Op::Bake3d; }
 
 void silence(Block& block) {

@@ -5,7 +5,7 @@
 namespace tomales::compiler {
 namespace {
 
-/// Emits instructions that compute a change. Registers of zero make terms disappear.
+/// Emits instructions that compute a change. Terms with a register of zero are left out.
 class Rule {
  public:
   explicit Rule(RuleContext& c) : c_(c), place_(c.i.place) {}
@@ -48,7 +48,7 @@ class Rule {
   }
 
   /// Returns the change of a transformed point. The point is divided by its weight w = p . c + m33, where c is the last
-  /// column of the matrix, unless w is 0. So its change is (d M - y (d . c)) / w, or d M.
+  /// column of the matrix, unless w is 0. So with the result y its change is (d M - y (d . c)) / w, or d M.
   int32_t changeOfPoint() {
     const auto weightOf = [&](float row) {
       return compute(Op::MatrixElement, {in(0), constant(row), constant(3)}, Shape::Number);
@@ -239,7 +239,7 @@ void writeChange(RuleContext& c, int32_t to) {
   const bool still = std::all_of(operands.begin(), operands.end(), [&](size_t k) { return rule.none(rule.d(k)); });
   std::vector<int32_t> value = still ? std::vector{c.zero} : rule.change();
   if (value.empty()) value = {byDifference(c, rule)};
-  // A Copy obeys the mask, as the Copy to its variable does; results of pure instructions are for all points.
+  // The change of a Copy is masked like the Copy itself; results of pure instructions are for all points.
   const bool masked = c.i.op == Op::Copy && c.i.masked;
   c.out.push_back({.op = Op::Copy, .out = {to}, .in = {value[0]}, .place = c.i.place, .masked = masked});
 }

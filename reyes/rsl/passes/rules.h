@@ -1,4 +1,4 @@
-// Private to the derivation: gives the change of a result from the changes of its operands.
+// Private to deriveSteps(): computes the change of a result from the changes of its operands.
 #pragma once
 #include <functional>
 
@@ -6,7 +6,7 @@
 
 namespace tomales::compiler {
 
-/// Returns the operands with which an instruction's result changes; empty if it does not change. (differentiated.cpp)
+/// Returns the operands that an instruction's result changes with; empty if it never changes. (differentiated.cpp)
 std::vector<size_t> differentiated(const Instruction& i);
 
 struct RuleContext {
@@ -15,7 +15,7 @@ struct RuleContext {
   const Instruction& i;
   int32_t zero;                            ///< A register of 0.
   Op side;                                 ///< StepU or StepV.
-  std::function<int32_t(int32_t)> stepOf;  ///< The register that holds the change of a register, or `zero`.
+  std::function<int32_t(int32_t)> stepOf;  ///< Returns the register that holds the change of a register, or `zero`.
 };
 
 /// Appends instructions that write the change of the instruction's result to `to`.

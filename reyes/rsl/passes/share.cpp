@@ -24,7 +24,7 @@ class Sharing {
         renew(i);
         continue;
       }
-      // Registers that a loop changes have other values in its second round.
+      // Registers that a loop changes have other values in its second iteration.
       const bool again = i.op != Op::If && i.op != Op::Scope;
       if (again) renewAll(i);
       for (Block& inner : i.blocks) run(inner);

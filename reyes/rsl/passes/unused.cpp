@@ -25,7 +25,7 @@ bool hasEffect(const Instruction& i) {
   }
 }
 
-/// Tells whether the host or the caller sees what the shader leaves in the register.
+/// Tells whether the host or the caller reads the register after the shader.
 bool isSeen(const Code& code, const Register& r) {
   if (r.origin == Origin::Parameter) {
     const Parameter& p = code.parameters[static_cast<size_t>(r.index)];
@@ -44,7 +44,8 @@ class Removal {
       reads_.assign(code_.registers.size(), 0);
       forEach(code_.body, [&](const Instruction& i) {
         forEachRead(i, [&](int32_t r) { ++reads_[static_cast<size_t>(r)]; });
-        // A store into part of a variable counts as no read: it matters only if something else reads the variable.
+        // A store into part of a variable does not count as a read: it matters only if something else reads the
+        // variable.
       });
       sweep(code_.body);
     } while (removed_);

@@ -6,8 +6,8 @@
 
 namespace tomales::compiler {
 
-/// Tells whether the expression is not 0; false after an error. Macros must be replaced already, and 'defined' done;
-/// other names are 0. Messages stand at `directive` if no word of the expression is to blame.
+/// Tells whether the expression is not 0; false after an error. Pre: macros and 'defined' have been replaced; remaining
+/// names are 0. A message has the place `directive` if no word of the expression is to blame.
 bool holds(const std::vector<Lexeme>& expression, Place directive, Messages& messages);
 
 }  // namespace tomales::compiler

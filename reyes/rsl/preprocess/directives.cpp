@@ -113,7 +113,7 @@ void Preprocessor::plainDirective(const Lexeme& name, Place place) {
   } else if (name.text == "warning") {
     messages_.warning(place, "#warning " + std::string(lexer.restOfLine()));
   } else if (name.text != "pragma" && name.text != "line" && name.text != "ident" && name.kind != LexemeKind::Number) {
-    // Places stay those of the file that is really read, so #line is accepted and changes nothing.
+    // Messages name the file that is really read, so #line is accepted and changes nothing.
     static const std::vector<std::string> known{"include", "define", "undef", "if",      "ifdef", "ifndef", "elif",
                                                 "else",    "endif",  "error", "warning", "line",  "pragma"};
     const std::vector<std::string> near = nearNames(name.text, known);

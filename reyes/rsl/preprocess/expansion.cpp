@@ -10,7 +10,7 @@ constexpr int kMostMacroNesting = 200;
 
 }  // namespace
 
-/// Puts a macro's replacement before what is read next. False if the macro takes arguments and none follow.
+/// Puts a macro's replacement before the next lexeme. Returns false if the macro takes arguments and none follow.
 bool Preprocessor::enter(const Lexeme& name, Macro& macro) {
   const MacroPtr kept = macros_.share(macro.name);  // A directive among the arguments may remove it.
   std::vector<MacroArgument> arguments;

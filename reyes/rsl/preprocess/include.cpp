@@ -103,7 +103,7 @@ ReadFile IncludeSearch::find(std::string_view name, bool isQuoted, const std::st
     isThere = true;
     out.failure = "it is outside of the folders from which files may be included";
   }
-  // Collections of shaders name such headers as they lie there: "../include/normals.h".
+  // Collections of shaders name such headers relative to their folders: "../include/normals.h".
   for (const std::string& header : {wanted, isThere ? std::string() : fs::path(wanted).filename().string()})
     if (const std::string_view own = standard_ ? standardHeader(header) : std::string_view(); !own.empty())
       return asFile(wanted, std::string(own));

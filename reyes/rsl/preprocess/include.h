@@ -20,20 +20,20 @@ ReadFile asFile(const std::string& name, std::string text);
 
 class IncludeSearch {
  public:
-  /// `ownFolder` is that of the shader's file; empty for a text without one.
+  /// `ownFolder` is the folder of the shader's file; empty for a text without a file.
   IncludeSearch(const PreprocessOptions& options, const std::string& ownFolder);
-  /// `fromFolder` is that of the including file.
+  /// `fromFolder` is the folder of the including file.
   ReadFile find(std::string_view name, bool isQuoted, const std::string& fromFolder) const;
 
  private:
   bool isPermitted(const std::string& realPath) const;
-  /// Returns false if `wanted` leads over symbolic links from the folder to the real path.
+  /// Returns false if the way from the folder to the real path leads over symbolic links.
   bool isHeaderOfCollection(const std::string& folder, const std::string& wanted, const std::string& real) const;
   std::vector<std::string> folders_;    ///< Folders in the order in which they are searched.
   bool standard_;                       ///< True if the renderer's own headers come last.
   std::vector<std::string> permitted_;  ///< Paths without symbolic links.
   /// Folders in which collections of shaders keep their headers, as K-3D does above its folders of surfaces and
-  /// displacements. Headers alone are read from there, and not through links.
+  /// displacements. Only headers are read from there, and not through links.
   std::vector<std::string> collections_;
 };
 

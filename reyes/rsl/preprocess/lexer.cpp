@@ -34,7 +34,7 @@ Lexer::Lexer(int32_t file, std::string_view text, MadeTexts& made, Messages& mes
 
 char Lexer::look(Cursor& cursor) const {
   while (cursor.at < text_.size() && text_[cursor.at] == '\\') {
-    // Blanks after the backslash are forgiven: nobody sees them.
+    // Blanks after the backslash are accepted, because they are invisible.
     const size_t end = text_.find_first_not_of(" \t", cursor.at + 1);
     if (end == std::string_view::npos || text_[end] != '\n') break;
     cursor = {end + 1, end + 1, cursor.line + 1};

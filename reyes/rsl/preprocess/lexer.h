@@ -10,12 +10,12 @@ namespace tomales::compiler {
 
 enum class LexemeKind : uint8_t {
   Name,
-  Number,  ///< A pp-number of C, which may be no number in the end, such as "1x".
+  Number,  ///< A pp-number of C, which may be no valid number, such as "1x".
   String,  ///< A text with its quotes, and with escapes as written.
   Character,
   Punctuator,
   Other,    ///< A byte that begins none of these.
-  Nothing,  ///< Stands for an empty argument while '##' is done.
+  Nothing,  ///< A placemarker: an empty argument during '##'.
   End       ///< Ends a file, a line (Lexer::nextInLine) or an argument.
 };
 
@@ -51,11 +51,11 @@ class Lexer {
   /// `text` must live as long as what is read from it; its lines end by '\n'.
   Lexer(int32_t file, std::string_view text, MadeTexts& made, Messages& messages);
   Lexeme next();
-  /// Returns the next word of this line. Returns End before the line's end, which is left for next().
+  /// Returns the next word of this line, or End at the line's end, which is left for next().
   Lexeme nextInLine();
   /// Returns the rest of the line as #error prints it.
   std::string_view restOfLine();
-  /// Returns <NAME> if the line goes on so, else an empty text. `*place` becomes where it begins.
+  /// Returns <NAME> if that is next on the line, and otherwise an empty text. `*place` is set to its beginning.
   std::string_view angledName(Place* place);
   /// Returns the comments directly before the last word of next(); empty if there are none.
   std::string_view commentBefore() const { return comment_; }
@@ -65,7 +65,7 @@ class Lexer {
     size_t at = 0, lineStart = 0;
     int32_t line = 1;
   };
-  char look(Cursor& cursor) const;  ///< The character there, behind continuations; '\0' at the end.
+  char look(Cursor& cursor) const;  ///< The character there, after continuations; '\0' at the end.
   char look() { return look(cursor_); }
   char lookBehind() const;  ///< The character after that of look().
   void step();

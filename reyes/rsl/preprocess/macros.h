@@ -24,7 +24,7 @@ struct Macro {
   bool takesArguments = false, isVariadic = false;
   std::vector<std::string> parameters;  ///< The last of a variadic macro is __VA_ARGS__, or has a name of its own.
   std::vector<MacroPiece> pieces;
-  int active = 0;  ///< The number of its replacements that are being read: it is not replaced within them.
+  int active = 0;  ///< The number of its replacements that are being read, in which it is not replaced again.
 };
 using MacroPtr = std::shared_ptr<Macro>;
 
@@ -36,7 +36,7 @@ struct MacroArgument {
   std::vector<Lexeme> written, expanded;
 };
 
-/// Returns the replacement with its arguments, '#' and '##' done. Lexemes of the macro get `expansion`.
+/// Returns the replacement with arguments substituted and '#' and '##' applied. Lexemes of the macro get `expansion`.
 std::vector<Lexeme> substitute(const Macro& macro, const std::vector<MacroArgument>& arguments, int32_t expansion,
                                MadeTexts& made, Messages& messages);
 

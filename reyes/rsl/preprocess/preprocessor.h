@@ -1,4 +1,4 @@
-// Makes the row of words of a file: does directives and replaces macros.
+// Makes the list of tokens of a file: performs directives and replaces macros.
 #pragma once
 #include "reyes/rsl/preprocess.h"
 #include "reyes/rsl/preprocess/include.h"
@@ -8,8 +8,9 @@ namespace tomales::compiler {
 
 class Preprocessor {
  public:
-  static constexpr size_t kMostBytes = 4 * kMostFileBytes;  ///< Limits what is read, and what comes out.
-  /// `ownFolder` is that of the shader's file; empty for a text without one.
+  static constexpr size_t kMostBytes =
+      4 * kMostFileBytes;  ///< Limits the bytes that are read, and those of the result.
+  /// `ownFolder` is the folder of the shader's file; empty for a text without a file.
   Preprocessor(const PreprocessOptions& options, const std::string& ownFolder, Sources& sources, Messages& messages);
   std::vector<Token> run(int32_t file);
 
@@ -28,13 +29,13 @@ class Preprocessor {
   struct Row {
     std::vector<Lexeme> lexemes;
     size_t at = 0;
-    MacroPtr macro{};         ///< The macro whose replacement it is; null if it is none.
+    MacroPtr macro{};         ///< The macro whose replacement this is; null if it is no replacement.
     bool isArgument = false;  ///< True if reading stops at its end.
   };
 
   // preprocessor.cpp
   Lexeme next();  ///< The next word after replacement; End at the end of a file, or of a row that is an argument.
-  Lexeme read();  ///< The next word as it stands.
+  Lexeme read();  ///< The next word, before replacement.
   Lexeme readFromFiles();
   void putBack(const Lexeme& lexeme);
   void closeFile();

@@ -51,7 +51,7 @@ class Substitution {
     if (!pasted || out_.empty() || !paste(out_.back(), lexeme)) out_.push_back(lexeme);
   }
 
-  /// Makes `left` the word that both spell together. Returns false if that is not one word.
+  /// Sets `left` to the word of both texts together. Returns false if that is not one word.
   bool paste(Lexeme& left, const Lexeme& right) {
     if (right.kind == LexemeKind::Nothing) return true;
     if (left.kind == LexemeKind::Nothing) {

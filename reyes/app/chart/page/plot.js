@@ -3,13 +3,13 @@
 const shortNumber = new Intl.NumberFormat('en', {maximumSignificantDigits: 3, useGrouping: false}).format;
 const percent = share => `${shortNumber(100 * share)} %`;
 
-/** Lines that do not touch each other: a point that is no number parts them. */
+/** Lines that do not touch each other: points that are not numbers separate them. */
 const segments = ends => ends.flatMap(([from, to]) => [from, to, {x: NaN, y: NaN}]);
 
-/** A dataset without points of its own, which no tip tells of. */
+/** A dataset that draws a line without points, for which no tooltip appears. */
 const line = (label, data, options) => ({label, data, showLine: true, pointRadius: 0, pointHitRadius: 0, order: 2, ...options});
 
-/** The names that points have, beside them. */
+/** Draws the names of points beside them. */
 const pointNames = {
   id: 'pointNames',
   afterDatasetsDraw(chart) {
@@ -92,7 +92,7 @@ function curves(plot) {
   };
 }
 
-/** Figures that may have either sign, below each other. */
+/** Figures of either sign, below each other. */
 function differences({rows}) {
   const labels = rows.map(r => [r.name, `${percent(r.mean)} ± ${percent(r.interval)}`]);
   return {
@@ -120,7 +120,7 @@ addEventListener('DOMContentLoaded', () => {
   for (const canvas of document.querySelectorAll('.drawing canvas')) {
     const figures = JSON.parse(canvas.nextElementSibling.textContent);
     const chart = new Chart(canvas, figures.rows ? differences(figures) : curves(figures));
-    // A screen reader tells this text, and tests read it.
+    // Screen readers speak this text, and tests read it.
     const points = chart.data.datasets.flatMap((set, i) => set.data.flatMap((p, k) => p.tip ? [chart.getDatasetMeta(i).data[k]] : []));
     const seen = points.filter(({x, y}) => x >= chart.chartArea.left && x <= chart.chartArea.right && y >= chart.chartArea.top && y <= chart.chartArea.bottom);
     canvas.setAttribute('aria-label', `${figures.title}: ${seen.length} points`);

@@ -48,7 +48,7 @@ const sliderRow = (label, param, value, set) => {
   return { row: rowOf(param.name, param.doc, slider, number), refresh: () => { slider.value = value()[0]; number.value = text(value()[0]); } };
 };
 
-/** The scale of a light in stops from that of the scene, which is what a lighter turns; the number beside it is the value. */
+/** The scale of a light in stops above the scene's, which is how lighting artists count; the number beside it is the value. */
 const stopsRow = (label, param, value, set) => {
   const scene = param.value[0] > 0 ? param.value[0] : 1;
   const slider = element("input", { type: "range", min: -kStops, max: kStops, step: 0.02, ariaLabel: `${label} in stops` });
@@ -60,7 +60,7 @@ const stopsRow = (label, param, value, set) => {
   return { row: rowOf(param.name, param.doc, slider, number), refresh };
 };
 
-/** Texts, or numbers that are no slider: points, matrices, arrays. */
+/** Texts, or numbers that have no slider: points, matrices, arrays. */
 const fieldsRow = (param, value, set) => {
   const isText = typeof param.value[0] === "string";
   const inputs = param.value.map((_, i) =>

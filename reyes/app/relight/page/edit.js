@@ -9,7 +9,7 @@ const kSlots = ["lights", "surfaces", "atmospheres", "imagers"];
 const same = (a, b) => a.length === b.length && a.every((x, i) => x === b[i]);
 const sorted = (x) => (x === null || typeof x !== "object" || Array.isArray(x) ? x
   : Object.fromEntries(Object.keys(x).sort().map((k) => [k, sorted(x[k])]).filter(([, v]) => v?.constructor !== Object || Object.keys(v).length > 0)));
-/** The same text for states that are the same to the program. */
+/** A text that is the same for states that the program does not tell apart. */
 export const nameOf = (state) => JSON.stringify(sorted(state));
 
 /** Shaders that may take the place of the scene's. */
@@ -21,7 +21,7 @@ export const offer = async (slot, name) => {
   if (!offered.has(key)) offered.set(key, await get(`shader?kind=${slot}&name=${encodeURIComponent(name)}`));
   return offered.get(key);
 };
-/** Fetches what the shaders of a state are. */
+/** Fetches the descriptions of the shaders of a state. */
 export const prepare = async (state) => {
   for (const [slot, owners] of Object.entries(state.shaders ?? {}))
     for (const name of Object.values(owners)) await offer(slot, name);
@@ -40,13 +40,13 @@ const place = (state, slot, key, name, value) => {
   if (Object.keys(state[slot][key]).length === 0) delete state[slot][key];
 };
 
-/** Sets a value, or takes it out if it is what the shader has anyway, so that an edit stays small. */
+/** Sets a value, or removes it if the shader has it anyway, so that an edit stays small. */
 export const set = (state, slot, owner, param, values) => {
   const value = values.map((v) => (typeof v === "number" ? Math.fround(v) : v));  // as the program keeps them
   place(state, slot, owner.owner, param.name, same(value, param.value) ? undefined : value);
 };
 
-/** Puts another shader in the place; parameters that both have keep their values. */
+/** Replaces a shader by another; parameters that both have keep their values. */
 export const swap = async (state, slot, owner, name) => {
   const before = shaderOf(state, slot, owner);
   const next = name === owner.shader ? owner : await offer(slot, name);
@@ -86,7 +86,7 @@ export const whole = (state) => {
 /** Undo and redo. */
 export class History {
   constructor(state) { this.states = [copyOf(state)]; this.at = 0; }
-  /** Keeps a state; one of the same `what` as the last takes its place, as while a slider moves. */
+  /** Keeps a state. It replaces the last one if that has the same `what`, as while a slider moves. */
   keep(state, what) {
     this.states.length = this.at + 1;
     if (what && what === this.what && this.at > 0) this.states[this.at] = copyOf(state);

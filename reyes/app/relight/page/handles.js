@@ -2,7 +2,7 @@
 // Shift towards the eye and away.
 import { set, shaderOf, valueOf } from "./edit.js";
 
-const kPixelsPerE = 200;  // a way of so many pixels brings a point 2.7 times nearer or farther
+const kPixelsPerE = 200;  // a drag of this many pixels moves a point e times as near or as far
 
 const times = (m, v) => [0, 1, 2, 3].map((row) => m[row] * v[0] + m[4 + row] * v[1] + m[8 + row] * v[2] + m[12 + row] * v[3]);
 
@@ -19,7 +19,7 @@ export const inverse = (m) => {
   return [0, 1, 2, 3].flatMap((c) => rows.map((row) => row[4 + c]));
 };
 
-/** The pixel of a point, and what else its way back needs; null if it is not in front of the eye. */
+/** The pixel of a point, with the numbers that unproject() needs; null if the point is not in front of the eye. */
 export const project = (matrix, point) => {
   const at = times(matrix, [...point, 1]);
   return at[3] > 0 ? { x: at[0] / at[3], y: at[1] / at[3], depth: at[2], w: at[3] } : null;

@@ -24,7 +24,7 @@ click        choose the object there
 ,  .         darker, brighter
 /            search`;
 const kPause_ms = 250;
-/** Least time between two pictures of what the program sends. Each takes time of the processors that shade the rest. */
+/** Least time between two paintings of what the program sends. Each takes time of the processors that shade the rest. */
 const kNews_ms = 250;
 
 $("end").onclick = async () => { await post("end"); $("what").textContent = "ended"; };
@@ -95,9 +95,9 @@ const paint = () => {
   });
 };
 
-/** Lets what comes next be painted at once. */
+/** Asks paintNews() to paint the first news of the next edit at once. */
 const expectFirst = () => { isFirst = true; };
-/** Paints what has come: the first of the present edit and the last at once. */
+/** Paints received news: at once if they are the first of the present edit or the last, and otherwise every kNews_ms. */
 const paintNews = (isPresent, isLast) => {
   const wait_ms = isLast || (isFirst && isPresent) ? 0 : shownNews_ms + kNews_ms - performance.now();
   if (isPresent) isFirst = false;

@@ -5,13 +5,13 @@ import { Painter } from "./painter.js";
 import { PlainPainter } from "./plain_painter.js";
 
 export class Mixer {
-  /** layers: the number of those that are mixed and of layer 0. way: "plain" or "webgl"; without it the faster one. */
+  /** layers: the number of layers, with layer 0 and without the variable. way: "plain" or "webgl"; without it the faster one. */
   constructor(canvas, width, height, layers, way) {
     Object.assign(this, { width, height, variable: layers, hasFresh: false });
     canvas.width = width;
     canvas.height = height;
     this.halves = new Array(layers + 1).fill(null);
-    /** What is known of each layer: the parts that have come, by their place. */
+    /** The received parts of each layer, by their places. */
     this.parts = this.halves.map(() => new Map());
     this.isFresh = new Uint8Array(width * height);
     this.painter = (way === "plain" ? null : Painter.on(canvas, layers + 1, way === "webgl")) ?? new PlainPainter(canvas, this);
@@ -47,7 +47,7 @@ export class Mixer {
     const shares = weights.map((w, i) => this.colorAt(i, x, y).map((v, c) => v * w[c]));
     return { shares, isWhole: this.isFresh[y * this.width + x] === 1 };
   }
-  /** The least and the greatest number of the variable, but for those that stand for nothing. */
+  /** The least and the greatest of every seventh number of the variable. Infinite numbers stand for no surface and do not count. */
   rangeOfVariable() {
     const half = this.halves[this.variable];
     let least = Infinity, most = -Infinity;

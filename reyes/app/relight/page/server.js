@@ -23,7 +23,7 @@ const blocksOf = (buffer, from) => {
 };
 
 const kCoarse = 16;  // kCoarseStep (layers.h): the step of a coarse picture. Its finer blocks come later, as news.
-const kWait_s = 0.4;  // news may take so long to come; what does not fit comes coarser first
+const kWait_s = 0.4;  // news may take this long to arrive; what does not fit arrives coarser first
 const kLeast_bytes = 50e3, kMost_bytes = 3e6, kTelling_bytes = 32e3;
 
 /** The connection to the program: its rate in bytes per second, and the bytes received so far. */

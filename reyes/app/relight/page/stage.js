@@ -45,7 +45,7 @@ export class Stage {
     this.wipe.style.left = `${edge}px`;
   }
 
-  /** Calls it now and when the picture has moved on the screen. */
+  /** Calls a function now and whenever the picture has moved on the screen. */
   whenPlaced(call) { this.placed.push(call); call(); }
   /** Puts an element over these pixels. */
   cover(element, { x, y, width, height }) {
@@ -64,7 +64,7 @@ export class Stage {
     const y = [a.y, b.y].map((v) => inside(v, this.canvas.height)).sort((p, q) => p - q);
     return x[0] < x[1] && y[0] < y[1] ? { x: x[0], y: y[0], width: x[1] - x[0], height: y[1] - y[0] } : null;
   }
-  /** The next drag chooses a region, which is told to `choose`. */
+  /** The next drag chooses a region, which is passed to `choose`. */
   askForRegion(choose) { this.choose = choose; this.element.classList.toggle("chooses", Boolean(choose)); }
 
   /** Puts this canvas beside the picture, to the left of the wipe; null: none. */

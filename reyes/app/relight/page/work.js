@@ -21,7 +21,7 @@ export class Work {
     into.append(this.text);
   }
 
-  /** Whether what has come of a layer at some place is what the program has now. */
+  /** Whether a received part of a layer is of an earlier version than the program's. */
   isOld(part, status, layer) { return part.version !== status.layers[layer].version; }
 
   show(status) {

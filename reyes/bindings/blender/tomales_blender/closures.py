@@ -164,12 +164,12 @@ def _between(a: Closure, b: Closure, share: Value, say: Callable[[str], None]) -
         return replace(there, color=_product(there.color, weight), emission=emission)
     if "glass" in (a.kind, b.kind):
         if a.kind != b.kind:
-            say("a mixture with glass has the larger share alone")
+            say("a mixture with glass becomes the one with the larger share")
         return b if mean(share)[0] > 0.5 else a
     numbers = {name: _lerp(a.numbers[name], b.numbers[name], share) for name in a.numbers}
     kind = "matte" if a.kind == b.kind == "matte" else "disney"
     if a.vertex_color != b.vertex_color:
-        say("a mixture of colour attributes has the first alone")
+        say("a mixture of colour attributes uses only the first")
     return Closure(kind, _lerp(a.color, b.color, share), numbers, _lerp(a.opacity, b.opacity, share), emission, a.ior, a.vertex_color or b.vertex_color, a.over_second | b.over_second, a.normal or b.normal)
 
 
@@ -181,7 +181,7 @@ def _sum(a: Closure, b: Closure, say: Callable[[str], None]) -> Closure:
     if {a.kind, b.kind} == {"matte"}:
         return replace(a, color=numpy.add(*matched([a.color, b.color])), emission=emission)
     shiny, dull = (a, b) if a.kind != "matte" else (b, a)
-    say("a sum of closures has the brighter colour and the highlights of one")
+    say("a sum of closures keeps the brighter colour, and the highlights of only one")
     return replace(shiny, kind="disney", emission=emission) if max(mean(shiny.color)) > max(mean(dull.color)) else replace(dull, kind="disney", numbers=shiny.numbers, emission=emission)
 
 

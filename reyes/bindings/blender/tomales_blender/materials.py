@@ -90,7 +90,7 @@ def _shaded(closure: Closure, textures: Textures, reflections: int, say: Warn) -
     emission = mean(closure.emission)
     shows_glow = is_picture(closure.emission) and closure.kind == "disney"
     if is_picture(closure.emission) and not shows_glow:
-        say("what glows has the mean of its picture")
+        say("a glowing surface sends the mean of its picture")
     look = Look(opacity=mean(closure.opacity)[0], emission=emission if max(emission) > 0 and not shows_glow else None)
     if closure.kind == "null":
         return Look("null")
@@ -140,13 +140,13 @@ def _disney(look: Look, closure: Closure, textures: Textures, reflections: int, 
         if picture:
             parameters[f"string {picture}"] = textures.file(value)
         elif is_picture(value):
-            say(f"{name} has the mean of its picture, {mean(value)[0]:.3g}")
+            say(f"{name} takes the mean of its picture, {mean(value)[0]:.3g}")
     if is_picture(closure.opacity):
         look.shader, look.opacity = "disneycutout", 1
         parameters["string opacitymap"] = textures.file(closure.opacity)
     if is_picture(closure.emission) and closure.kind == "disney":
         parameters["color emission"], parameters["string emissionmap"] = [1, 1, 1], textures.file(closure.emission)
-        say("its picture glows, and lights other things by bounces alone")
+        say("its picture glows, but lights other objects only by bounced light")
     second = [_maps()[name] for name in sorted(closure.over_second) if f"string {_maps().get(name)}" in parameters]
     if second:
         parameters["string secondset"] = " ".join(second)

@@ -15,7 +15,7 @@ _FAR = 1e10  #: The depth that Blender stores where there is nothing.
 #: The renderer's Cryptomatte variables, with the names of Blender's passes (also used in the file) and the settings
 #: that ask for them.
 _MATTES = {"cryptoobject": ("CryptoObject", "use_pass_cryptomatte_object"), "cryptomaterial": ("CryptoMaterial", "use_pass_cryptomatte_material")}
-_MATTE_PASSES = 3  #: The number of passes that the file has of each matte. Each pass has two ranks.
+_MATTE_PASSES = 3  #: The number of passes in the file for each matte. Each pass has two ranks.
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Pass:
     declared: str = ""  #: The type for DisplayChannel, if this is no standard variable of surfaces.
     source: str = ""  #: The parameters of DisplayChannel.
     is_light: bool = False  #: Cycles keeps the surface's colour apart, so it is divided out.
-    own: bool = False  #: Whether Blender must be told of this pass, because it is not built in.
+    own: bool = False  #: Whether this pass must be registered with Blender, because it is not built in.
 
     def plane_names(self) -> list[str]:
         """Returns the names of the pass's channels in the file."""

@@ -106,7 +106,7 @@ def _background(world: bpy.types.World, textures: Textures, panorama_of: Callabl
 
 
 def _computed(world: bpy.types.World, node: bpy.types.Node, textures: Textures) -> Background:
-    """Returns the sky of a Background node before a colour or one panorama. Raises Unsupported for all else."""
+    """Returns the sky of a Background node before a colour or one panorama. Raises Unsupported for anything else."""
     if node.type != "BACKGROUND":
         raise Unsupported(node.name)
     graph = Graph(textures.pixels)

@@ -132,5 +132,5 @@ def info(file: Path) -> dict[str, Any]:
 
 
 def compare(picture: Path, reference: Path, **given: Any) -> dict[str, Any]:
-    """Returns how far a picture is from a reference."""
+    """Returns the errors of a picture against a reference."""
     return json.loads(run("compare", picture, reference, json=True, **given).output)

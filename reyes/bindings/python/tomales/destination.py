@@ -23,7 +23,7 @@ Answer = Callable[[float, str], bytes]
 class Destination(Protocol):
     #: The command that RunProgram requests name, so that the renderer can ask. None means that nobody can be asked later.
     relay: str | None
-    takes_places: bool  #: Whether the reader's messages name places that the stream tells (#line 12 "scene.py").
+    takes_places: bool  #: Whether the reader's messages use places that the stream carries (#line 12 "scene.py").
 
     def write(self, data: bytes) -> None: ...
     def close(self) -> int:

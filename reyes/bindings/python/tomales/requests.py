@@ -1,6 +1,6 @@
 """The requests of RIB and their arguments, as the renderer knows them.
 
-`requests.txt` is what `tomales requests` prints. A test holds the two against each other.
+`requests.txt` is what `tomales requests` prints. A test compares the two.
 """
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Signature:
     """One request. `arguments` has a letter for each positional argument:
 
     f is a number, i an integer, s a string and h a handle; F, I and S are arrays of numbers, integers and strings; c is
-    a color, and a digit from 2 to 9 stands for so many numbers; m is 16 numbers and b a basis (a name or 16 numbers).
+    a color, and a digit from 2 to 9 stands for that many numbers; m is 16 numbers and b a basis (a name or 16 numbers).
     All arguments after a ? are given together or left out together.
     """
 

@@ -34,7 +34,7 @@ class Stream:
     _chunk_bytes = 1 << 16
 
     def __init__(self, name: object, form: Format, places: bool, answer: Answer) -> None:
-        """With `places` the stream tells the script's lines, so that the renderer's messages name them. A renderer
+        """With `places` the stream carries the script's lines, so that the renderer's messages name them. A renderer
         always gets them."""
         self.form = form
         self.color_samples = 3
