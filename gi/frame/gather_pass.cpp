@@ -192,7 +192,7 @@ class GatherPass {
     std::vector<BrightFind> finds;
     size_t done = gatherRecords(sites, all, records, phase_ < kPilotPhases ? &finds : nullptr,
                                 [this](float share) { report(share); });
-    if (learnFrom(finds, sites)) done = gatherRecords(sites, pilotsAmong(sites), records, nullptr, {});
+    if (learnFrom(finds, sites)) done = std::min(done, gatherRecords(sites, pilotsAmong(sites), records, nullptr, {}));
     for (size_t i = 0; i < done; ++i) state_.caches[sites[i].cache].cache.insert(records[i]);
     state_.stats.irradianceCache.samples += static_cast<int64_t>(done);
     report(1);

@@ -70,8 +70,8 @@ void PhotonTracer::advance(std::vector<Path>& paths, uint32_t stream, Scratch& s
                            std::vector<StoredPhoton>& out) const {
   fly(paths, s);
   crossMedia(paths, stream, s, out);
-  if (rays_.hasVolumes())
-    for (size_t k = 0; k < s.flying.size(); ++k)
+  for (size_t k = 0; rays_.hasVolumes() && k < s.flying.size(); ++k)
+    if (s.hits[k].object >= 0)
       paths[s.flying[k]].power *= rays_.passedByVolumes(paths[s.flying[k]].ray, s.hits[k].t, kMaskPhoton);
   ask(paths, stream, s);
   draw(paths, stream, s);
@@ -165,12 +165,13 @@ void PhotonTracer::crossMedia(std::vector<Path>& paths, uint32_t stream, Scratch
 bool PhotonTracer::collideWith(Path& path, const Medium& medium, bool isLit, float flight, uint32_t name,
                                std::vector<StoredPhoton>& out) const {
   const vec3 P = path.ray.origin + flight * path.ray.direction;
+  const vec3 passed = rays_.hasVolumes() ? rays_.passedByVolumes(path.ray, flight, kMaskPhoton) : vec3(1);
   if (isLit)
-    out.push_back({P, vec3(0), path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth, path.bounces,
-                   path.specularFirst});
+    out.push_back({P, vec3(0), passed * path.power / (medium.majorant(path.power) * worldUnit_), -1, path.depth,
+                   path.bounces, path.specularFirst});
   const Collision collision = collide(medium, path.power, sobol1(path.number, hashCombine(name, 1u)));
   if (collision.event == Collision::Absorbed) return false;
-  path.power = collision.power;
+  path.power = passed * collision.power;
   ++path.collisions;
   if (collision.event == Collision::None) {  // the same ray goes on from there
     path.ray.origin = P;

@@ -11,9 +11,23 @@
 namespace tomales {
 namespace {
 
-constexpr int kSteps = 32;  ///< Steps along each edge of a patch, which give a sphere's area to a thousandth.
+constexpr int kSteps = 32;          ///< Steps along each edge of a patch, which give a sphere's area to a thousandth.
+constexpr int kPartsOfTrimmed = 4;  ///< Places along each edge of a polygon that are looked up in trim curves.
 
-/// Sums the areas of the polygons of a lattice over the patch, in camera space.
+/// Returns the share of a polygon of the lattice that trim curves keep.
+double keptShare(const Prim& shape, uint32_t patch, int column, int row) {
+  const auto at = [](int step, float part) { return (static_cast<float>(step) + part) / kSteps; };
+  const Kept kept = shape.kept(patch, {at(column, 0), at(column, 1), at(row, 0), at(row, 1)});
+  if (kept != Kept::Part) return kept == Kept::All ? 1 : 0;
+  int count = 0;
+  for (int k = 0; k < kPartsOfTrimmed * kPartsOfTrimmed; ++k) {
+    const auto part = [](int i) { return (static_cast<float>(i) + 0.5f) / kPartsOfTrimmed; };
+    count += shape.keeps(patch, at(column, part(k % kPartsOfTrimmed)), at(row, part(k / kPartsOfTrimmed)));
+  }
+  return static_cast<double>(count) / (kPartsOfTrimmed * kPartsOfTrimmed);
+}
+
+/// Sums the areas that remain of the polygons of a lattice over the patch, in camera space.
 double areaOf(const Prim& shape, uint32_t patch, const mat4& cameraFromObject) {
   constexpr int kRow = kSteps + 1, kPoints = kRow * kRow;
   std::vector<float> u(kPoints), v(kPoints), points(size_t{12} * kPoints);
@@ -31,7 +45,8 @@ double areaOf(const Prim& shape, uint32_t patch, const mat4& cameraFromObject) {
   for (int row = 0; row < kSteps; ++row)
     for (int column = 0; column < kSteps; ++column) {
       const int k = row * kRow + column;
-      sum += 0.5 * static_cast<double>(length(cross(at(k + kRow + 1) - at(k), at(k + kRow) - at(k + 1))));
+      sum += keptShare(shape, patch, column, row) * 0.5 *
+             static_cast<double>(length(cross(at(k + kRow + 1) - at(k), at(k + kRow) - at(k + 1))));
     }
   return sum;
 }

@@ -1,6 +1,7 @@
 """Compares volumes with closed forms: what boxes and OpenVDB files let through, scatter and shade. It also tests the messages about bad ones."""
 import math
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -45,6 +46,18 @@ def middle(body, *options):
     expect(result.returncode == 0, f"rendered {result.stderr}")
     values = pixels(folder / "out.exr")[(4, 4)]
     return values[0], values[3]
+
+
+def photons_in_the_medium(body):
+    """Returns the power of the photons that collide 1 to 3 below a layer of smoke, above a black floor."""
+    light = 'LightSource "distantlight" 1 "from" [0 10 0] "to" [0 0 0]\nExterior "medium" "scattering" [0.05 0.05 0.05]\nSurface "matte" "Kd" [0]\n'
+    (folder / "p.rib").write_text(f'WorldBegin\n{light}{body}Polygon "P" [-4 0 1  -4 0 9  4 0 9  4 0 1]\nWorldEnd\n')
+    for command in (["photons", "p.rib", "-o", "maps", "--photons", "100000"], ["convert", "maps/scene.volume.ptc", "p.ply"]):
+        subprocess.run([tomales, *command], cwd=folder, check=True, capture_output=True)
+    header, values = (folder / "p.ply").read_bytes().split(b"end_header\n", 1)
+    width = header.count(b"property float")
+    rows = struct.iter_unpack(f"<{width}f", values)
+    return sum(row[width - 1] for row in rows if 2 <= row[1] <= 4)
 
 
 def openvdb(grid, file="fog.vdb", bound="-9 9 -9 9 -9 9"):
@@ -102,6 +115,10 @@ with tempfile.TemporaryDirectory() as name:
     near(middle(lamp + mirror + gas + unseen + BOX.format(0.5))[0], 2 / 4 * 0.6 * -math.expm1(-0.75), 0.02, "a mirror shows it, and nothing behind it")
 
     # The bits are the same for any number of threads, any buckets and any order.
+    # Photons that collide in a medium below smoke have lost there what rays lose.
+    smoke = 'AttributeBegin\nInterior "medium" "scattering" [0 0 0] "absorption" [2 2 2]\nVolume "box" [-5 5 5 6 0 10] [0 0 0] "constant float density" [{}]\nAttributeEnd\n'
+    near(photons_in_the_medium(smoke.format(1)), math.exp(-2) * photons_in_the_medium(smoke.format(0)), 0.04, "smoke dims the photons of a medium behind it")
+
     body = shadow + gas + WALL.format(3) + openvdb("density") + BOX.format(0.2).replace("1 4", "3 6")
     bits = set()
     for options in ("-t 1", "-t 2", "-t 2 --bucket 4x4"):

@@ -303,6 +303,10 @@ class Rectangle final : public Prim {
     }
   }
   void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
+  Kept kept(uint32_t, const UvRect&) const override { return isTrimmed ? Kept::Part : Kept::All; }
+  bool keeps(uint32_t patch, float u, float v) const override { return !isTrimmed || (patch == 0 && u < v); }
+
+  bool isTrimmed = false;
 };
 
 TEST_F(Lights, BmrtMeasuresTheGeometryOfAreaLights) {
@@ -329,6 +333,12 @@ TEST_F(Lights, BmrtMeasuresTheGeometryOfAreaLights) {
     ASSERT_EQ(params.size(), bmrt ? 1u : 0u);
     if (!bmrt) continue;
     EXPECT_NEAR(params[0].number(0), 2 * 3 * 4, 1e-3f);
+    auto trimmed = std::make_shared<Rectangle>();
+    trimmed->isTrimmed = true;
+    scene.objects[0].shapes = {trimmed};
+    scene.lights[0]->shader.params.clear();
+    measureAreaLights(scene, registry, log);
+    EXPECT_NEAR(scene.lights[0]->shader.params.at(0).number(0), 0.25f * 2 * 3 * 4, 0.1f) << "of what trim curves leave";
   }
 }
 
