@@ -19,7 +19,7 @@ constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 0.4;
 constexpr int kMostGrowth = 4;  ///< No more than so many times the paths are added at once: a few tell little.
 constexpr int kTimesLightSamples = 8;
-constexpr size_t kPixelsPerBlock = 4;
+constexpr size_t kPixelsPerBlock = 6;
 constexpr float kMeanOfNormal = 0.7979f;  ///< Mean absolute value of draws from the normal distribution.
 
 std::string percentOf(const ErrorEstimate& e) {

@@ -17,8 +17,8 @@ constexpr int kCellsAcross = 8;  ///< Pixels that are looked at along each edge 
 constexpr int kPixelsOfBlock = kCellsAcross * kCellsAcross;
 /// Paths at each point in each of the two sets: the least number at first, which is then doubled until the sets are
 /// quiet.
-constexpr int kFewestPathsOfBlocks = 4, kMostPathsOfBlocks = 64;
-constexpr double kQuietBlocks = 0.8;  ///< Paths are added while the noise exceeds this share of the deviation.
+constexpr int kFewestPathsOfBlocks = 16, kMostPathsOfBlocks = 64;
+constexpr double kQuietBlocks = 0.5;  ///< Paths are added while the noise exceeds this share of the deviation.
 constexpr int kBothHalves = 2;
 
 /// Returns the set of rays to which this pixel belongs, in blocks where some pixels are left out. The sets have

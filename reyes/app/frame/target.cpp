@@ -62,11 +62,11 @@ class TargetSearch {
     const TrialSettings trialSettings{.fewerRays = fewerRaysFor(target_.error),
                                       .matters = target_ * kMatters,
                                       .seed = seedOfTrials(settings_),
-                                      .likely = [&](const ErrorModel& m) { return m.cheapest(target_ * kMargin); }};
+                                      .likely = [&](const ErrorModel& m) { return cheapest(m); }};
     TrialsResult trials = makeTrials(light_, trialSettings);
     if (stopRequested()) return;
     ErrorModel& model = trials.model;
-    LightQuality quality = model.cheapest(target_ * kMargin);
+    LightQuality quality = cheapest(model);
     tellChoice(trials, quality);
     for (int attempt = 1;; ++attempt) {
       gather(quality, attempt == 1);
@@ -79,8 +79,7 @@ class TargetSearch {
       const bool isNear = errorIsNear(report, target_) && !smudgesAreFar(report, target_) &&
                           errors.smudges <= kTolerance * target_.smudges;
       model.correct(errors);
-      const LightQuality better =
-          model.cheapest(target_ * kMargin, job_.method().caches ? std::optional(quality) : std::nullopt);
+      const LightQuality better = cheapest(model, job_.method().caches ? std::optional(quality) : std::nullopt);
       if (isNear || attempt == kMostAttempts || better == quality) return finish(quality, report, attempt);
       tellAgain(report, better);
       quality = better;
@@ -88,6 +87,16 @@ class TargetSearch {
   }
 
  private:
+  bool namesSmudges() const { return settings_.quality.targetSmudges > 0; }
+
+  /// Where smudges that nobody has named cannot be as small as the mean error, that error alone decides.
+  LightQuality cheapest(const ErrorModel& model, const std::optional<LightQuality>& gathered = {}) const {
+    const ErrorTarget aim = target_ * kMargin;
+    const LightQuality best = model.cheapest(aim, gathered);
+    const bool onlySmudgesMiss = model.smudges(best) > target_.smudges && model.error(best) <= target_.error;
+    return onlySmudgesMiss && !namesSmudges() ? model.cheapest({aim.error, 0}, gathered) : best;
+  }
+
   /// Keeps the records that there are if they are as asked: only lamps have other samples.
   void gather(const LightQuality& quality, bool isFirst) {
     if (!isFirst && job_.method().caches && quality.hasRecordsOf(job_.quality()))
@@ -105,8 +114,9 @@ class TargetSearch {
       log_.report(
           Severity::Warning, "target-beyond", {},
           fmt::format("a mean error of {:.3g} % and smudges of {:.3g} % are beyond what rays, records and light "
-                      "samples can reach here: {} are expected at best, and tried",
-                      100 * target_.error, 100 * target_.smudges, least));
+                      "samples can reach here: {} are expected {}",
+                      100 * target_.error, 100 * target_.smudges, least,
+                      expected > target_.error || namesSmudges() ? "at best, and tried" : "for the mean error alone"));
     log_.report(
         Severity::Note, "target-error", {},
         fmt::format("{} for a mean error of {:.3g} % and smudges of {:.3g} %: trials in {} of {} buckets expect {}",
