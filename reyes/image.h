@@ -159,6 +159,8 @@ class DisplayFile {
   DisplayFile(const Image& shape, const FrameOutput& output, size_t index, const Options& options, Log& log,
               const View& view = {}, const MatteNames& names = {}, const PluginTrust& trust = {});
   ~DisplayFile();
+  /// Returns false if the constructor has found that it cannot be written.
+  bool hasBegun() const;
   /// Writes the next rows from the top: 64 or a multiple, except for the last call. Returns false if it cannot be
   /// written.
   bool write(const Image& rows);
@@ -175,6 +177,9 @@ class DisplayFile {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+/// Begins the file of each Display, and leaves nothing of it. Returns false, and reports it, if one cannot be written.
+/// Display drivers are not tried.
+bool displaysCanBegin(const Options& options, const PluginTrust& trust, Log& log);
 /// Serves MakeShadow: the file of a Display needs no change, so it is checked and copied.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
 /// Joins OpenEXR pictures of crop windows of one frame to the file that the whole frame would have written, with its

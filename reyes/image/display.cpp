@@ -55,6 +55,7 @@ struct DisplayFile::Impl {
           }))
         good = addMatte(c.kind, names) && good;
     if (good) file = std::make_unique<PictureFile>(path, shape, format);
+    if (file && !file->error().empty()) report();
     if (file && format.driver) warnOfUnreadParams(display, file->unread(), log);
   }
 
@@ -186,6 +187,7 @@ DisplayFile::DisplayFile(const Image& shape, const FrameOutput& output, size_t i
                          const View& view, const MatteNames& names, const PluginTrust& trust)
     : impl_(new Impl(shape, output, index, options, log, view, names, trust)) {}
 DisplayFile::~DisplayFile() = default;
+bool DisplayFile::hasBegun() const { return impl_->file != nullptr; }
 bool DisplayFile::write(const Image& rows) { return impl_->write(rows); }
 bool DisplayFile::write(const DeepRows& rows) { return impl_->write(rows); }
 std::optional<DeepMerge> DisplayFile::deep() const {
@@ -193,6 +195,20 @@ std::optional<DeepMerge> DisplayFile::deep() const {
 }
 bool DisplayFile::close(float finished) { return impl_->close(finished); }
 const std::string& DisplayFile::written() const { return impl_->path; }
+
+bool displaysCanBegin(const Options& options, const PluginTrust& trust, Log& log) {
+  const PixelRect crop = Camera(options).crop();
+  const FrameOutput output = outputOf(options);
+  const Image shape{crop.width(), crop.height(), output.names(),      {},
+                    crop.x0,      crop.y0,       options.xResolution, options.yResolution};
+  bool all = true;
+  for (size_t i = 0; i < options.displays.size(); ++i) {
+    const DisplayCall& d = options.displays[i];
+    if (d.type == "null" || !driverOf(d, options, trust).empty()) continue;
+    all = DisplayFile(shape, output, i, options, log, {}, {}, trust).hasBegun() && all;
+  }
+  return all;
+}
 
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log) {
   Options one = options;

@@ -1,5 +1,6 @@
 """Tests that output that cannot be written gives exit code 4, in every command and for every kind of output. Words in the place of numbers are
 wrong usage."""
+import shutil
 import subprocess
 
 from program import GOOD, Suite
@@ -71,6 +72,18 @@ for what, command in {"info": '"$0" info good.rib', "compare": '"$0" compare goo
                       "brickmake": f'"$0" brickmake {lit_points} -o o.bkm', "--help": '"$0" --help'}.items():
     result = subprocess.run(["bash", "-c", command + " > /dev/full", t.program], cwd=t.folder, capture_output=True, text=True, timeout=60)
     t.expect(result.returncode == 4 and "standard output" in result.stderr, f"{what} to a standard output that is full (exit {result.returncode}) {result.stderr[-200:]}")
+# A frame does not begin where one of its Displays cannot be written, as is known before.
+(t.folder / "alone").mkdir()
+shutil.copy(t.program, t.folder / "alone/tomales")  # The module that writes TIFF is not beside it.
+for what, display, program, *says in (
+        ("depth in a PNG", '"+z.png" "file" "z"', t.program, "PNG holds no depth"),
+        ("Cryptomatte in a TIFF", '"+id.tif" "tiff" "cryptoobject"', t.program, "Cryptomatte needs OpenEXR"),
+        ("a picture in the place of a folder", '"+is.png" "file" "rgb"', t.program, "directory"),
+        ("a TIFF whose module is missing", '"+a.tif" "tiff" "rgba"', t.folder / "alone/tomales", "libtomales_tiff.so")):
+    t.write("two.rib", f'Display "first.exr" "file" "rgba"\nDisplay {display}\n' + LIT.split("\n", 1)[1])
+    result = subprocess.run([program, "two.rib"], cwd=t.folder, capture_output=True, text=True, timeout=60)
+    t.expect(result.returncode == 4 and all(s in result.stderr for s in (*says, "two.rib:2", "the frame was not rendered")), f"{what} is told {result.stderr[-300:]}")
+    t.expect(not (t.folder / "first.exr").exists(), "before the frame begins")
 left = [p.name for p in t.folder.rglob("*.part") if ".dfb" not in p.name and ".icf" not in p.name]
 t.expect(not left, f"nothing is left behind but buckets, which --resume uses: {left}")
 t.write("kept.rib", GOOD)

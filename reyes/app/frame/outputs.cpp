@@ -160,14 +160,17 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   return false;
 }
 
-bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log) {
+bool displaysAreWritable(const Options& options, const PluginTrust& trust, Log& log) {
   bool all = true;
   for (const DisplayCall& display : options.displays) {
     if (!driverOf(display, options, trust).empty()) continue;
     makeFolderOf(display.name);
     all = hasFolder(display.name, display.where, log) && all;
   }
-  return all;
+  if (!all || displaysCanBegin(options, trust, log)) return all;
+  log.report(Severity::Output, "frame-unwritable", {},
+             "the frame was not rendered, because not all of its Displays can be written");
+  return false;
 }
 
 }  // namespace tomales

@@ -27,7 +27,8 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 /// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
 /// file is written.
 void makeFolderOf(const std::string& file);
-/// Makes the relative folders of Displays. Display drivers need none.
-bool displaysHaveFolders(const Options& options, const PluginTrust& trust, Log& log);
+/// Makes the relative folders of Displays. Returns false, and reports it, if one of them has no folder or cannot be
+/// written. Display drivers are not asked.
+bool displaysAreWritable(const Options& options, const PluginTrust& trust, Log& log);
 
 }  // namespace tomales

@@ -158,7 +158,7 @@ std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
 }
 
 void ShotJob::shadePicture() {
-  if (!displaysHaveFolders(shot_.scene.options, pluginTrust(settings_), log_)) return;
+  if (!displaysAreWritable(shot_.scene.options, pluginTrust(settings_), log_)) return;
   checkDisplays(shot_.scene.options, log_);
   describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
                settings_);
