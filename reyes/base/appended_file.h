@@ -17,6 +17,7 @@ class AppendedFile {
   /// Appends whole lines; lines of other programs do not get between them. Returns false on failure, and `error` says
   /// why.
   bool write(const std::string& lines, std::string& error) const;
+  int descriptor() const { return descriptor_; }
 
  private:
   explicit AppendedFile(int descriptor) : descriptor_(descriptor) {}

@@ -3,7 +3,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -26,31 +28,68 @@ constinit thread_local uint64_t changes = 0;  ///< Counts the notes that this th
 constinit thread_local uint64_t marked = 0;   ///< `changes` when notes were marked, or 0 if there was no note.
 std::atomic<bool> compares{false}, told{false};
 
+std::atomic<int> alsoTo{-1};  ///< Descriptor of a log; negative: there is none.
+
 // The code below runs in a signal handler: no allocation, no streams.
 
-void put(const char* text) {
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to read it
-}
+/// A line for standard error, and for a log, whose lines begin with the time. What is too long is cut.
+class Line {
+ public:
+  Line() { putTime(); }
+  void put(const char* text) {
+    const size_t size = std::min(std::strlen(text), sizeof text_ - 1 - size_);
+    std::memcpy(text_ + size_, text, size);
+    size_ += size;
+  }
+  void put(int number, int width = 1) {
+    if (number < 0) put("-");
+    char digits[12] = {}, *at = digits + sizeof digits - 1;
+    unsigned left = number < 0 ? 0u - static_cast<unsigned>(number) : static_cast<unsigned>(number);
+    for (int k = 0; k == 0 || left > 0 || k < width; ++k, left /= 10) *--at = static_cast<char>('0' + left % 10);
+    put(at);
+  }
+  void send() {
+    text_[size_++] = '\n';
+    if (write(STDERR_FILENO, text_ + timeSize_, size_ - timeSize_) < 0) return;  // nobody is left to be told
+    if (alsoTo >= 0 && write(alsoTo, text_, size_) < 0) return;
+  }
 
-void put(int number) {
-  if (number < 0) put("-");
-  char digits[12] = {}, *at = digits + sizeof digits - 1;
-  unsigned left = number < 0 ? 0u - static_cast<unsigned>(number) : static_cast<unsigned>(number);
-  do *--at = static_cast<char>('0' + left % 10);
-  while (left /= 10);
-  put(at);
-}
+ private:
+  /// timeNow() of process.h may wait for a lock.
+  void putTime() {
+    using namespace std::chrono;
+    const auto now = floor<seconds>(system_clock::now());
+    const auto day = floor<days>(now);
+    const year_month_day date(day);
+    const hh_mm_ss clock(now - day);
+    const struct {
+      int64_t number;
+      int width;
+      const char* after;
+    } fields[] = {{int{date.year()}, 4, "-"},        {unsigned{date.month()}, 2, "-"},
+                  {unsigned{date.day()}, 2, "T"},    {clock.hours().count(), 2, ":"},
+                  {clock.minutes().count(), 2, ":"}, {clock.seconds().count(), 2, "Z "}};
+    for (const auto& f : fields) {
+      put(static_cast<int>(f.number), f.width);
+      put(f.after);
+    }
+    timeSize_ = size_;
+  }
 
-void putBucket() {
+  char text_[4096];
+  size_t size_ = 0, timeSize_ = 0;
+};
+
+void putBucket(Line& line) {
   if (bucket.x0 == bucket.x1) return;
-  put(", in the bucket of the pixels ");
-  put(bucket.x0);
-  put(",");
-  put(bucket.y0);
-  put(" to ");
-  put(bucket.x1 - 1);
-  put(",");
-  put(bucket.y1 - 1);
+  line.put(", in the bucket of the pixels ");
+  line.put(bucket.x0);
+  line.put(",");
+  line.put(bucket.y0);
+  line.put(" to ");
+  line.put(bucket.x1 - 1);
+  line.put(",");
+  line.put(bucket.y1 - 1);
 }
 
 const char* nameOf(int signal) {
@@ -68,42 +107,47 @@ const char* nameOf(int signal) {
   }
 }
 
-void putNote(const CrashNote::Text& t) {
-  put("tomales: error: ");
+void putNote(Line& line, const CrashNote::Text& t) {
+  line.put("tomales: error: ");
   if (t.file) {
-    put(t.file);
-    put(":");
-    put(t.line);
-    put(": ");
+    line.put(t.file);
+    line.put(":");
+    line.put(t.line);
+    line.put(": ");
   }
-  put(t.user);
+  line.put(t.user);
   if (t.other) {
-    put(", on ");
-    put(t.other);
+    line.put(", on ");
+    line.put(t.other);
   }
-  putBucket();
-  put(": ");
-  put(t.kind);
-  put(" \"");
-  put(t.name);
+  putBucket(line);
+  line.put(": ");
+  line.put(t.kind);
+  line.put(" \"");
+  line.put(t.name);
 }
 
 extern "C" void onCrash(int signal) {
+  Line line;
   if (current) {
-    putNote(*current);
-    put("\" crashes (");
-    put(nameOf(signal));
-    put("); this ends the program\n");
-  } else if (loadedPlugin(0)) {
-    put("tomales: error: the program crashes (");
-    put(nameOf(signal));
-    put("); it has loaded plugins, one of which may be to blame:");
-    for (int i = 0; loadedPlugin(i); ++i) {
-      put(" ");
-      put(loadedPlugin(i));
-    }
-    put("\n");
+    putNote(line, *current);
+    line.put("\" crashes (");
+  } else {
+    line.put("tomales: error: the program crashes (");
   }
+  line.put(nameOf(signal));
+  if (current) {
+    line.put("); this ends the program");
+  } else if (loadedPlugin(0)) {
+    line.put("); it has loaded plugins, one of which may be to blame:");
+    for (int i = 0; loadedPlugin(i); ++i) {
+      line.put(" ");
+      line.put(loadedPlugin(i));
+    }
+  } else {
+    line.put(")");
+  }
+  line.send();
   raise(signal);  // SA_RESETHAND has restored the default, which kills
 }
 
@@ -111,8 +155,10 @@ extern "C" void onAsked(int) {
   if (!compares) {
     marked = current ? changes : 0;
   } else if (current && marked == changes && !told.exchange(true)) {
-    putNote(*current);
-    put("\" does not return; this ends the program\n");
+    Line line;
+    putNote(line, *current);
+    line.put("\" does not return; this ends the program");
+    line.send();
   }
 }
 
@@ -173,6 +219,8 @@ bool tellLastingNote() {
   askThreads(true);
   return told;
 }
+
+void reportCrashesAlsoTo(int descriptor) { alsoTo = descriptor; }
 
 void reportCrashes() {
 #ifndef TOMALES_SANITIZED  // sanitizers report more than a note does

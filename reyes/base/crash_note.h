@@ -41,5 +41,7 @@ bool tellLastingNote();
 /// Sets handlers: from now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has
 /// one, to standard error before they end the program as they always do.
 void reportCrashes();
+/// What is written to standard error goes to this log too, with the time before it. Negative: no longer.
+void reportCrashesAlsoTo(int descriptor);
 
 }  // namespace tomales

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "reyes/base/appended_file.h"
+#include "reyes/base/crash_note.h"
 #include "reyes/base/process.h"
 
 namespace tomales {
@@ -36,11 +37,15 @@ std::string beginning(const std::string& message) {
 }  // namespace
 
 Log::Log(Verbosity verbosity) : verbosity_(verbosity) {}
-Log::~Log() { printRepeated(); }
+Log::~Log() {
+  printRepeated();
+  if (file_) reportCrashesAlsoTo(-1);
+}
 
 bool Log::alsoTo(const std::string& file, std::string& error) {
   auto opened = AppendedFile::open(file, error);
   const std::lock_guard lock(mutex_);
+  if (opened) reportCrashesAlsoTo(opened->descriptor());
   if (opened) file_ = std::move(opened);
   return file_ != nullptr;
 }
@@ -48,6 +53,7 @@ bool Log::alsoTo(const std::string& file, std::string& error) {
 void Log::append(const std::string& line) {
   std::string why;
   if (!file_ || file_->write(timeNow() + ' ' + line, why)) return;
+  reportCrashesAlsoTo(-1);
   file_.reset();
   entries_.push_back({Severity::Output, "log-write", "the log could not be written: " + why, {}, 1, {{}}});
   std::fprintf(stderr, "tomales: output error: %s [log-write]\n", entries_.back().message.c_str());

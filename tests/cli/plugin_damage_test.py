@@ -52,8 +52,10 @@ namespace { void shade(const TmGrid*) { *static_cast<volatile int*>(nullptr) = 1
 TM_SHADER_LIBRARY(shader)
 """)
 subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", source, t.folder / "late.cpp", "-o", t.folder / "plugins/dots.so"], check=True)
-result = t.run("scene.rib", "--plugin-path", "plugins", "-t", "1")
+result = t.run("scene.rib", "--plugin-path", "plugins", "-t", "1", "--log", "farm.log")
 t.expect(result.returncode == -11 and re.search(r'scene.rib:9: "ball", in the bucket of the pixels -?\d+,-?\d+ to \d+,\d+: surface shader "dots" crashes', result.stderr), f"a crash while it shades names shader, object, line and bucket: {result.stderr[-300:]}")
+last = (t.folder / "farm.log").read_text().splitlines()[-1]
+t.expect(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ " + re.escape(result.stderr.splitlines()[-1]), last), f"in the log, too, with the time: {last}")
 t.write("wild.cpp", """#include <reyes/shader_api.h>
 static const TmParamDecl params[] = {{(const char*)8, TM_FLOAT, 1, 0, 0, 0, 0}};
 static const TmShader shader = {TM_SHADER_ABI, sizeof(TmShader), TM_SURFACE, 0, 1, sizeof(TmParamDecl), params, [](const TmGrid*) {}, "dots", 0, 0, 0};
