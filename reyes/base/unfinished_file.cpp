@@ -145,6 +145,13 @@ bool writeFile(const std::string& target, const std::string& content, std::strin
   return file->finish(error);
 }
 
+std::string placeOf(const fs::path& target) {
+  std::error_code none;
+  const fs::path absolute = fs::absolute(throughLinks(target), none);
+  const fs::path place = fs::weakly_canonical(absolute, none);
+  return (none ? absolute.lexically_normal() : place).string();
+}
+
 bool isAmong(const fs::path& target, const std::vector<std::string>& files) {
   std::error_code none;
   return std::any_of(files.begin(), files.end(),

@@ -71,8 +71,12 @@ bool moveFinished(const std::filesystem::path& from, const std::filesystem::path
 /// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Tells whether `target` is one of these files, by whatever name. Commands use it to warn before they replace an input
-/// of their own.
+/// Returns one name for all paths that lead to the same file, be it there or not yet. (Hard links are files of their
+/// own: writing to one leaves the others.)
+std::string placeOf(const std::filesystem::path& target);
+
+/// Tells whether `target`, by whatever name, is one of these. A command that would replace one of its own inputs says
+/// so before.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales

@@ -84,6 +84,10 @@ for what, display, program, *says in (
     result = subprocess.run([program, "two.rib"], cwd=t.folder, capture_output=True, text=True, timeout=60)
     t.expect(result.returncode == 4 and all(s in result.stderr for s in (*says, "two.rib:2", "the frame was not rendered")), f"{what} is told {result.stderr[-300:]}")
     t.expect(not (t.folder / "first.exr").exists(), "before the frame begins")
+t.write("self.rib", GOOD.replace('"good.exr" "file"', '"./self.rib" "openexr"'))
+scene = (t.folder / "self.rib").read_bytes()
+t.expect_run("a picture in the place of the scene", ["self.rib"], 4, "self.rib:1", "would replace the scene")
+t.expect((t.folder / "self.rib").read_bytes() == scene, "leaves the scene")
 left = [p.name for p in t.folder.rglob("*.part") if ".dfb" not in p.name and ".icf" not in p.name]
 t.expect(not left, f"nothing is left behind but buckets, which --resume uses: {left}")
 t.write("kept.rib", GOOD)

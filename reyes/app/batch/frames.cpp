@@ -6,6 +6,7 @@
 
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/overrides.h"
+#include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 
@@ -83,8 +84,7 @@ class FrameReader {
     std::map<std::string, int> writers;
     for (const auto& [number, frame] : out_.frames)
       for (const std::string& file : frame.files)
-        if (const auto [at, isNew] = writers.emplace(fs::path(file).lexically_normal().string(), number);
-            !isNew && at->second != number) {
+        if (const auto [at, isNew] = writers.emplace(placeOf(file), number); !isNew && at->second != number) {
           refuse("batch-same-file", fmt::format("frames {} and {} both write \"{}\": # in the name of -o stands "
                                                 "for the number of the frame; nothing was begun",
                                                 at->second, number, file));

@@ -26,6 +26,7 @@
 #include "reyes/app/watch/run_report.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/stop.h"
+#include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
 #include "reyes/rib.h"
 
@@ -193,16 +194,17 @@ class RenderRun {
   }
 
   void warnAboutOverwriting(const Scene& scene) {
-    if (!settings_.picture.output.empty() && !namesPicture(settings_.picture.output))
-      return warnAboutOverwriting(withFrameNumber(settings_.picture.output, scene.options.frame), scene.where);
+    const std::string output = withFrameNumber(settings_.picture.output, scene.options.frame);
+    if (!output.empty() && !namesPicture(output)) return warnAboutOverwriting(placeOf(output), output, scene.where);
     for (const DisplayCall& display : scene.options.displays) {
-      warnAboutOverwriting(display.name, display.where);
-      outputUsed_ |= display.name == withFrameNumber(settings_.picture.output, scene.options.frame);
+      outputUsed_ |= display.name == output;
+      if (display.type != "null")
+        warnAboutOverwriting(placeOf(display, scene.options, pluginTrust(settings_)), display.name, display.where);
     }
   }
 
-  void warnAboutOverwriting(const std::string& file, const SourceLoc& where) {
-    if (written_.insert(file).second) return;
+  void warnAboutOverwriting(const std::string& place, const std::string& file, const SourceLoc& where) {
+    if (written_.insert(place).second) return;
     log_.report(
         Severity::Warning, "output-overwritten", where,
         "\"" + file + "\" of an earlier frame is written over; with -o, # in the name stands for the frame number");
@@ -217,7 +219,7 @@ class RenderRun {
   std::optional<StageTimer> parse_;  // Runs while the scene is read.
   std::chrono::steady_clock::time_point readingSince_;
   std::optional<ProgressMeter> meter_;  // Runs while the scene is read.
-  std::set<std::string> written_;
+  std::set<std::string> written_;       ///< Places of files.
   std::optional<HeldQuality> held_;
   int pictureFrame_ = 0;  // Frame of the last picture.
   size_t picture_ = 0;    // Number of the next picture in that frame.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "reyes/base/output_root.h"
+#include "reyes/base/unfinished_file.h"
 #include "reyes/camera.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
@@ -87,16 +88,14 @@ void dropDisplays(Options& options, const std::set<std::string>& named, const Pl
   };
   const bool someFile =
       std::any_of(options.displays.begin(), options.displays.end(), [&](const DisplayCall& d) { return !isWindow(d); });
-  std::set<std::string> files;
+  std::set<std::string> places;
   std::erase_if(options.displays, [&](const DisplayCall& d) {
     if (someFile && isWindow(d)) {
       log.report(Severity::Note, "display-window", d.where,
                  "Display \"" + d.name + "\" of type " + d.type + ": there are no windows; left out beside the file");
       return true;
     }
-    const std::string path = fs::path(d.name).lexically_normal().string();
-    const bool isPicture = namesPicture(path) && driverOf(d, options, trust).empty();
-    if (files.insert(isPicture ? path : path + " " + d.type).second) return false;
+    if (d.type == "null" || places.insert(placeOf(d, options, trust)).second) return false;
     log.report(named.contains(d.name) ? Severity::Note : Severity::Warning, "display-twice", d.where,
                "Display \"" + d.name + "\" would write over an earlier Display of this frame; left out");
     return true;
@@ -126,6 +125,13 @@ void keepLargerFiles(Options& options, const std::set<std::string>& named, const
   }
 }
 
+bool replacesNoSource(const DisplayCall& display, const RenderSettings& settings, Log& log) {
+  if (!isAmong(fileOf(display), settings.input.files)) return true;
+  log.report(Severity::Output, "image-write", display.where,
+             "\"" + fileOf(display) + "\" could not be written: it would replace the scene");
+  return false;
+}
+
 }  // namespace
 
 bool writesMapsAlone(const Options& options, const RenderSettings& settings) {
@@ -144,6 +150,11 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log) {
     keepLargerFiles(options, named, trust, log);
 }
 
+std::string placeOf(const DisplayCall& display, const Options& options, const PluginTrust& trust) {
+  const std::string driver = driverOf(display, options, trust);
+  return driver.empty() ? placeOf(fileOf(display)) : driver + " " + display.name;
+}
+
 void makeFolderOf(const std::string& file) {
   const fs::path folder = std::filesystem::path(file).parent_path();
   std::error_code failed;  // if this fails, the folder is missing still
@@ -160,12 +171,13 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   return false;
 }
 
-bool displaysAreWritable(const Options& options, const PluginTrust& trust, Log& log) {
+bool displaysAreWritable(const Options& options, const RenderSettings& settings, Log& log) {
+  const PluginTrust trust = pluginTrust(settings);
   bool all = true;
   for (const DisplayCall& display : options.displays) {
-    if (!driverOf(display, options, trust).empty()) continue;
+    if (display.type == "null" || !driverOf(display, options, trust).empty()) continue;
     makeFolderOf(display.name);
-    all = hasFolder(display.name, display.where, log) && all;
+    all = hasFolder(display.name, display.where, log) && replacesNoSource(display, settings, log) && all;
   }
   if (!all || displaysCanBegin(options, trust, log)) return all;
   log.report(Severity::Output, "frame-unwritable", {},

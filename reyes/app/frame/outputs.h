@@ -22,13 +22,16 @@ void nameOutputs(Options& options, const RenderSettings& settings, Log& log);
 /// view.
 bool writesMapsAlone(const Options& options, const RenderSettings& settings);
 
+/// Returns one name for the file that a Display writes, by whatever path, or for what a display driver gets.
+std::string placeOf(const DisplayCall& display, const Options& options, const PluginTrust& trust);
+
 /// Hours of rendering must not end at a folder that never existed. Returns false, and reports it, if it does not exist.
 bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 /// Makes the folder only if it is relative: scenes of modellers name folders of their project. A failure shows when the
 /// file is written.
 void makeFolderOf(const std::string& file);
-/// Makes the relative folders of Displays. Returns false, and reports it, if one of them has no folder or cannot be
-/// written. Display drivers are not asked.
-bool displaysAreWritable(const Options& options, const PluginTrust& trust, Log& log);
+/// Makes the relative folders of Displays. Returns false, and reports it, if one of them has no folder, cannot be
+/// written, or would replace the scene itself. Display drivers are not asked.
+bool displaysAreWritable(const Options& options, const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

@@ -77,9 +77,10 @@ std::unique_ptr<Checkpoint> ShotJob::keptGather() const {
                     contents =
                         contentsOfGather(shot_, files_->dfb().shotSum(), *files_->kept().shaders, sum, settings_);
   if (!contents.empty()) return Checkpoint::create(settings_.picture.output + ".kept", contents, log_);
-  log_.report(Severity::Note, "resume", {},
-              "--resume keeps nothing: the maps of --atlas are read while light is gathered and might change between "
-              "runs");
+  log_.report(
+      Severity::Note, "resume", {},
+      "--resume keeps nothing: the maps of --atlas, or files whose names shaders compute, are read while light is "
+      "gathered and might change between runs");
   return nullptr;
 }
 
@@ -158,7 +159,7 @@ std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
 }
 
 void ShotJob::shadePicture() {
-  if (!displaysAreWritable(shot_.scene.options, pluginTrust(settings_), log_)) return;
+  if (!displaysAreWritable(shot_.scene.options, settings_, log_)) return;
   checkDisplays(shot_.scene.options, log_);
   describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
                settings_);
