@@ -69,6 +69,19 @@ before = (t.folder / "half/work/0002.dfb").stat().st_mtime_ns
 t.expect_run("half of a file between", ["batch", "half", "-j", "2"], 0, "finished 3 of 3")
 t.expect(same("h") and (t.folder / "half/work/0002.dfb").stat().st_mtime_ns == before, "is not taken for a whole one, and nothing else is made")
 
+# One of two pictures is lost after the tiles that it was made of have been cleared away.
+t.write("pair.rib", (t.folder / "shot.rib").read_text().replace("WorldBegin", 'Display "p.exr" "openexr" "rgba"\nDisplay "+p_ids.exr" "openexr" "cryptoobject"\nWorldBegin'))
+t.expect_run("two pictures a frame", ["batch", "pair.rib", "-o", "p.#.exr", "--tiles", "2x1", "--plan", "pair", "-j", "2"], 0, "finished 3 of 3")
+pictures = {name: (t.folder / name).read_bytes() for name in left("p.*.exr")}
+stamps = {name: (t.folder / name).stat().st_mtime_ns for name in pictures}
+t.expect(len(pictures) == 6 and not left("pair/work/*"), f"are there, and nothing else ({left('p.*')}, {left('pair/work/*')})")
+for lost in ("p.2_ids.exr", "p.3.exr"):
+    (t.folder / lost).unlink()
+t.expect_run("one of them is lost", ["batch", "pair", "-j", "2"], 0, "finished 3 of 3")
+t.expect({name: (t.folder / name).read_bytes() for name in left("p.*.exr")} == pictures, "and is made again")
+again = {name for name, stamp in stamps.items() if (t.folder / name).stat().st_mtime_ns != stamp}
+t.expect({"p.2_ids.exr", "p.3.exr"} <= again <= {"p.2_ids.exr", "p.3.exr", "p.3_ids.exr"}, f"alone ({again})")
+
 # One machine has died, and one lives.
 t.write("half/owner", "4711 elsewhere\n")
 (t.folder / "h.1.exr").unlink()

@@ -235,7 +235,7 @@ class PlanMaker {
                              fmt::format("shade{:03}", i),
                              number,
                              shade,
-                             {taskName(records, "gather")},
+                             {taskName(number, "hide"), taskName(records, "gather")},
                              files,
                              whole ? unneeded : std::vector<std::string>()});
       if (!whole) append(unneeded, files);
@@ -243,8 +243,9 @@ class PlanMaker {
     if (options_.tileCount() > 1) addJoins(number, before, unneeded);
   }
 
-  void addJoins(int number, std::vector<std::string> before, const std::vector<std::string>& unneeded) {
+  void addJoins(int number, const std::vector<std::string>& tiles, const std::vector<std::string>& unneeded) {
     const FrameFiles& frame = scene_.frames.at(number);
+    std::vector<std::string> before = tiles;
     for (size_t f = 0; f < frame.files.size(); ++f) {  // one after the other, as the last one clears up
       const bool last = f + 1 == frame.files.size();
       std::vector<std::string> arguments{"join", "-o", frame.files[f]};
@@ -257,7 +258,8 @@ class PlanMaker {
                              before,
                              {frame.files[f]},
                              last ? unneeded : std::vector<std::string>()});
-      before = {name};
+      before = tiles;
+      before.push_back(name);
     }
   }
 

@@ -85,7 +85,7 @@ void checkPlan(BatchPlan& plan) {
     if (!names.insert(t.name).second) refusePlan(plan, fmt::format("two tasks are called \"{}\"", t.name));
     if (t.arguments.empty()) refusePlan(plan, fmt::format("task \"{}\" has no arguments", t.name));
     for (const std::string& file : t.makes)
-      if (const auto [at, isNew] = makers.emplace(fs::path(file).lexically_normal().string(), t.name); !isNew)
+      if (const auto [at, isNew] = makers.emplace(placeOf(fs::path(plan.workingFolder) / file), t.name); !isNew)
         refusePlan(plan, fmt::format("\"{}\" and \"{}\" both make \"{}\"", at->second, t.name, file));
   }
   for (const BatchTask& t : plan.tasks)
@@ -197,11 +197,13 @@ std::vector<TaskState> statesOf(const BatchPlan& plan) {
     const BatchTask& task = plan.tasks[i];
     const auto needed = stillNeeded.find(task.name);
     out[i] = readState(plan, task);
-    if (needed != stillNeeded.end() && !needed->second)
+    // One picture of a frame is joined after the other, and each must be there.
+    const bool isBetween = needed != stillNeeded.end() && task.arguments.front() != "join";
+    if (isBetween && !needed->second)
       out[i].kind = TaskState::Done;
     else if (out[i].kind == TaskState::Done) {
       const auto sizes = sizesOf(plan, task);
-      const bool isWhole = sizes && (needed == stillNeeded.end() || *sizes == out[i].sizes);
+      const bool isWhole = sizes && (!isBetween || *sizes == out[i].sizes);
       if (!isWhole) out[i].kind = TaskState::Waiting;
     }
     for (const std::string& n : task.needs) stillNeeded[n] |= out[i].kind != TaskState::Done;
