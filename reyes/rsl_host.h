@@ -48,6 +48,14 @@ RslValue rslValue(const TmShader& shader, int32_t parameter, const TmGrid& grid)
 /// Does the same before anything is shaded. Returns nothing if the value depends on the points or on the scene.
 std::optional<RslValue> rslFixedValue(const TmShader& shader, int32_t parameter, const TmValue* params);
 
+/// The files that a shader reads while it runs, such as textures.
+struct RslReads {
+  std::vector<std::string> names;  ///< Constants and defaults of parameters, among which the names are.
+  bool isKnown = true;             ///< False if a name is computed, or told by the scene or another shader.
+};
+/// Returns none if the shader is not written in RSL.
+RslReads rslReads(const TmShader& shader);
+
 /// Returns the texts that stand in the code of a shader, such as names of pictures; none if it is not written in RSL.
 std::vector<std::string> rslTexts(const TmShader& shader);
 

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
+#include "reyes/pictures.h"
 #include "reyes/scene_changes.h"
 #include "reyes/state_fields.h"
 
@@ -12,20 +14,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A checksum to which shaders add the contents of the files that they name, but not their locations.
+/// Sums of files that have been looked for: many lights name one shader, and many surfaces one picture.
+struct Stamps {
+  std::map<fs::path, uint64_t> files{};
+  std::map<std::string, uint64_t> pictures{};
+};
+
+/// A checksum to which shaders add facts about the files that they name, and not their locations.
 struct WorldSum : ContentSum {
   std::map<std::string, std::string> searchPaths{};
-  std::map<fs::path, uint64_t> stamps{};  ///< Of files that have been looked for: many lights name one shader.
-  uint64_t stampOf(const fs::path& file) {
-    const auto [it, isNew] = stamps.try_emplace(file, 0);
+  std::shared_ptr<Stamps> stamps{};
+  uint64_t stampOf(const fs::path& file) const {
+    const auto [it, isNew] = stamps->files.try_emplace(file, 0);
     if (isNew) it->second = fileStamp(file);
+    return it->second;
+  }
+  uint64_t stampsOf(const std::string& picture) const {
+    const auto [it, isNew] = stamps->pictures.try_emplace(picture, 0);
+    if (isNew) it->second = stampsOfPicture(picture, pathOf(searchPaths, "texture"));
     return it->second;
   }
 };
 
-/// Adds every file that the name may stand for, along the search path and in `beside`.
-void addFile(WorldSum& sum, const std::string& name, const char* kind, const std::string& beside = ".") {
-  std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, kind));
+/// Adds every file that a shader's name may stand for, along the search path and in `beside`.
+void addShaderFile(WorldSum& sum, const std::string& name, const std::string& beside) {
+  std::vector<std::string> folders = foldersOf(pathOf(sum.searchPaths, "shader"));
   folders.insert(folders.begin(), ".");
   if (beside != ".") folders.push_back(beside);
   for (const fs::path folder : folders) {
@@ -34,26 +47,34 @@ void addFile(WorldSum& sum, const std::string& name, const char* kind, const std
   }
 }
 
-void addPicture(WorldSum& sum, const std::string& name) {
-  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
-    if (const size_t at = name.find(mark); at != std::string::npos)
-      for (int tile = 1001; tile <= 1100; ++tile)
-        addFile(sum, std::string(name).replace(at, mark.size(), std::to_string(tile)), "texture");
-  addFile(sum, name, "texture");
-}
-
 void fields(WorldSum& a, ShaderCall& x) {
   each(a, x.name, x.params, x.worldFromShader);
   const std::string beside = x.where.folder().string();
-  for (const char* ending : {".so", ".sl"}) addFile(a, x.name + ending, "shader", beside.empty() ? "." : beside);
+  for (const char* ending : {".so", ".sl"}) addShaderFile(a, x.name + ending, beside.empty() ? "." : beside);
   for (const Param& p : x.params)
-    for (const std::string& s : p.strings) addPicture(a, s);
+    for (const std::string& s : p.strings)
+      if (uint64_t stamps = a.stampsOf(s)) each(a, stamps);
 }
 
 }  // namespace
 
+uint64_t stampsOfPicture(const std::string& name, const std::string& searchPath) {
+  uint64_t sum = 0;
+  if (name.empty()) return sum;
+  const auto add = [&](const std::string& file) {
+    for (const std::string& candidate : candidateFiles(file, searchPath, textureEndings()))
+      if (const uint64_t stamp = fileStamp(candidate)) sum = contentSum(sum, uint64_t{stamp});
+  };
+  add(name);
+  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
+    if (const size_t at = name.find(mark); at != std::string::npos)
+      for (int tile = 1001; tile <= 1100; ++tile) add(std::string(name).replace(at, mark.size(), std::to_string(tile)));
+  return sum;
+}
+
 uint64_t worldSum(const Scene& scene, bool photonsOnly) {
   WorldSum sum;
+  sum.stamps = std::make_shared<Stamps>();
   sum.searchPaths = scene.options.searchPaths;
   Options options = scene.options;
   options.searchPaths.erase("texturecache");
@@ -77,6 +98,7 @@ uint64_t worldSum(const Scene& scene, bool photonsOnly) {
     auto [attributes, isNew] = known.try_emplace(o.attributes, 0);
     if (isNew) {
       WorldSum part;
+      part.stamps = sum.stamps;
       part.searchPaths = scene.options.searchPaths;
       std::shared_ptr<const Attributes> shared = asTheSceneSays(o.attributes);
       field(part, shared);

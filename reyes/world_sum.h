@@ -11,4 +11,7 @@ namespace tomales {
 /// objects. Pre: procedurals that photons meet are open. Without `photonsOnly` it sums all objects.
 uint64_t worldSum(const Scene& scene, bool photonsOnly = true);
 
+/// Sums size and time of change of the files that a texture's name may stand for; 0 if there are none.
+uint64_t stampsOfPicture(const std::string& name, const std::string& searchPath);
+
 }  // namespace tomales

@@ -2,6 +2,7 @@
 frames."""
 import hashlib
 import itertools
+import math
 import pathlib
 import re
 import signal
@@ -165,25 +166,63 @@ for left in [f"{name}.exr" for name in FACES] + ["room.env", "look.exr"]:
     (t.folder / left).unlink()
 t.run("shot.rib", "-q")
 
-# By the matrices in headers, points of the world are projected to where they are seen.
-seen = [at for at, value in pixels(t.folder / "beauty.exr").items() if value[3] > 0.99]
-middle = (sum(x for x, _ in seen) / len(seen) + 0.5, sum(y for _, y in seen) / len(seen) + 0.5)
-
-
-def projected(matrix, p):
-    row = [sum(v * matrix[4 * i + k] for i, v in enumerate((*p, 1))) for k in range(4)]  # Row vectors are multiplied from the left.
-    return 64 * row[0] / row[3], 48 * row[1] / row[3]
-
-
+# By the matrices in headers, points of the world are projected to where they are seen: in all kinds of pictures, as one command makes them, as three
+# do, and in a crop.
 for name in PICTURES:
     said = header(name)
     t.expect(float(said["near"]) == 0.5 and float(said["far"]) == 100, f"{name} has the clipping planes")
-    at = projected([float(v) for v in said["worldToNDC"].split(",")], (0, 0, 0))
-    # A sphere's outline is an ellipse whose middle is a little farther out than the projected middle of the sphere.
-    t.expect(abs(at[0] - middle[0]) < 0.8 and abs(at[1] - middle[1]) < 0.8, f"{name}: worldToNDC leads to the ball ({at}, {middle})")
     for key, value in (("scene", "shot.rib"), ("frame", "2"), ("settings", "")):
         t.expect(said.get(f"tomales:{key}", "") == value, f"{name} tells {key}")
     t.expect(said["tomales:version"] == sys.argv[2], f"{name} tells the version")
+POINTS = [(-0.3, 0.25, 0.3), (0.45, 0.2, -0.3), (0.1, -0.3, 0.9), (-0.4, -0.25, -0.6)]
+balls = "".join(f"TransformBegin Translate {x} {y} {z} Sphere 0.04 -0.04 0.04 360 TransformEnd\n" for x, y, z in POINTS)
+for kind, projection in (("perspective", 'Projection "perspective" "fov" [40]'), ("parallel", 'Projection "orthographic"')):
+    text = re.sub(r'Display "(\+?)', rf'Display "\1{kind}_', DISPLAYS) + WORLD.replace('Projection "perspective" "fov" [40]', projection).replace("Format 64 48 1", "Format 320 200 1.25")
+    t.write(f"{kind}.rib", text.replace('"ours"', '"constant"').replace("Sphere 0.8 -0.8 0.8 360\n", balls).replace("0.1 0 4", "-0.7 0.1 4 Rotate 20 1 0.3 0"))
+
+
+def times(p, matrix):
+    """Returns a point by a matrix as OpenEXR has them: row vectors are multiplied from the left."""
+    row = [sum(v * matrix[4 * i + k] for i, v in enumerate((*p, 1))) for k in range(4)]
+    return [v / row[3] for v in row[:3]]
+
+
+def expect_projected(what, names, depths):
+    depth = {at: value[0] for at, value in pixels(t.folder / depths).items() if 0 < value[0] < 50}
+    for name in names:
+        said = header(name)
+        ndc, camera, screen = ([float(v) for v in said[key].split(",")] if key in said else None for key in ("worldToNDC", "worldToCamera", "worldToScreen"))
+        worst = 0
+        for p in POINTS:
+            x, y = (a * b for a, b in zip(times(p, ndc), (320, 200)))
+            seen = [at for at in depth if abs(at[0] + 0.5 - x) < 12 and abs(at[1] + 0.5 - y) < 12]
+            if not seen:
+                worst = math.inf
+                continue
+            middle = [sum(at[k] + 0.5 for at in seen) / len(seen) for k in (0, 1)]
+            away = abs(times(p, camera)[2] - min(depth[at] for at in seen) - 0.04)  # of the ball's nearest point
+            worst = max(worst, math.dist(middle, (x, y)), 100 * away)
+            if screen:
+                u, v = times(p, screen)[:2]
+                worst = max(worst, math.dist((160 + 160 * u, 100 - 100 * v), (x, y)))
+        t.expect(worst < 0.5, f"{what}, {name}: matrices lead to {len(POINTS)} points, {worst:.2f} pixels off at most")
+    t.expect(any("worldToScreen" in header(name) for name in names), "    and one has worldToScreen")
+
+
+for kind in ("perspective", "parallel"):
+    names = [f"{kind}_{name}" for name in PICTURES]
+    t.run(f"{kind}.rib", "-q")
+    expect_projected("render", names, f"{kind}_depth.exr")
+    t.run("hide", f"{kind}.rib", "-o", f"{kind}.dfb", "-q")
+    for name in names:
+        (t.folder / name).unlink()
+    t.run("shade", f"{kind}.dfb", "-q")
+    expect_projected("hide and shade", names, f"{kind}_depth.exr")
+    for name in names:
+        (t.folder / name).unlink()
+    t.run(f"{kind}.rib", "--crop", "0.02,0.98,0.03,0.97", "-q")
+    t.expect(window(names[0])[:2] != (0, 0), "(a crop)")
+    expect_projected("a crop", names, f"{kind}_depth.exr")
 t.run("beauty.rib", "-o", "set.exr", "--gi", "gather", "--samples", "16", "-q")
 settings = header("set.exr")["tomales:settings"]
 t.expect(settings == "--gi gather --samples 16", f"settings of the command line are told ({settings})")
@@ -213,6 +252,24 @@ rendered("with a shader of another folder", LOOKS, True)
 rendered("with that shader again", LOOKS, False)
 t.write("looks/half.h", "#define HALF 0.25 ")
 rendered("with a header of it that has changed", LOOKS, True)
+t.write("looks/ours.sl", 'surface ours(string dirt = "dirt.tif") { Oi = Os; Ci = color texture("paper.tif") * float texture(dirt); }')
+
+
+def paint(name):
+    t.run("beauty.rib", "-o", name, "--one-picture", "--format", "16x12", "-q")
+
+
+paint("paper.tif")
+paint("dirt.tif")
+rendered("with textures", LOOKS, True)
+for what in ("paper", "dirt"):
+    rendered(f"with that {what}", LOOKS, False)
+    paint(f"{what}.tif")
+    rendered(f"with a {what} that has changed, which the shader names", LOOKS, True)
+t.write("looks/ours.sl", 'surface ours(string dirt = "dirt") { Oi = Os; Ci = texture(concat(dirt, ".tif")); }')
+for _ in range(2):
+    rendered("with a texture whose name is computed", LOOKS, True)
+t.expect_run("which is told", LOOKS, 0, "files whose names shaders compute", "frame-unknown")
 t.write("shot.rib", MAP + "FrameBegin 2\n" + DISPLAYS + WORLD.replace("0.8 360", "0.8 350") + "FrameEnd\n")
 rendered("with geometry that has changed", [*SKIP, "--seed", "7"], True)
 t.write("shot.rib", MAP + "FrameBegin 2\n" + DISPLAYS + WORLD.replace("0.1 0 4", "0.2 0 4") + "FrameEnd\n")

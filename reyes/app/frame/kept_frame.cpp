@@ -37,9 +37,10 @@ std::unique_ptr<Checkpoint> checkpointOf(const Scene& scene, ShaderRegistry& sha
   }
   const std::string contents = contentsOf(scene, shaders, settings);
   if (contents.empty()) {
-    log.report(Severity::Note, "resume", {},
-               "--resume keeps hidden buckets alone: procedurals, or files of light, are read while the frame is "
-               "rendered and might change between runs");
+    log.report(
+        Severity::Note, "resume", {},
+        "--resume keeps hidden buckets alone: procedurals, files of light, or files whose names shaders compute are "
+        "read while the frame is rendered and might change between runs");
     return nullptr;
   }
   const PixelRect& crop = layout.crop;  // records lie where it shows something

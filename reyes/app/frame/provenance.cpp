@@ -11,6 +11,7 @@
 #include "reyes/camera.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
+#include "reyes/rsl_host.h"
 #include "reyes/state_fields.h"
 #include "reyes/world_sum.h"
 
@@ -63,14 +64,17 @@ std::string sceneText(const RenderSettings& settings) {
   return out;
 }
 
-/// Returns a checksum of the sizes and times of change of all files that the scene's shaders are made of.
-uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
+/// Sums size and time of change of all files that the scene's shaders are made of, and of those that they
+/// name, by parameters or in their text. Returns nothing if a shader computes the name of a file.
+std::optional<uint64_t> shaderSum(const Scene& scene, ShaderRegistry& shaders) {
   const std::string path = pathOf(scene.options.searchPaths, "shader");
   std::set<const ShaderCall*> seen;
   std::vector<ShaderName> names;
   std::set<std::tuple<std::string, TmKind, std::string>> known;  // ten thousand lights may name one shader
+  std::set<std::string> files, pictures;
   const auto add = [&](const ShaderCall* call, TmKind kind) {
     if (!call || !seen.insert(call).second) return;
+    for (const Param& p : call->params) pictures.insert(p.strings.begin(), p.strings.end());
     std::string beside = call->where.folder().string();
     if (known.emplace(call->name, kind, beside).second) names.push_back({call->name, kind, std::move(beside)});
   };
@@ -83,12 +87,19 @@ uint64_t shaderSum(const Scene& scene, ShaderRegistry& shaders) {
     for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) add(volume.get(), TM_VOLUME);
   }
   shaders.prepare(names, path);
-  std::set<std::string> files;
-  for (const ShaderName& n : names)
-    if (const TmShader* shader = shaders.find(n.name, n.kind, path, n.beside))
-      for (std::string& file : shaders.filesOf(*shader)) files.insert(std::move(file));
+  for (const ShaderName& n : names) {
+    const TmShader* shader = shaders.find(n.name, n.kind, path, n.beside);
+    if (!shader) continue;
+    for (std::string& file : shaders.filesOf(*shader)) files.insert(std::move(file));
+    RslReads reads = rslReads(*shader);
+    if (!reads.isKnown) return std::nullopt;
+    pictures.insert(reads.names.begin(), reads.names.end());
+  }
   uint64_t sum = 0;
   for (const std::string& file : files) sum = contentSum(sum, fileStamp(file));
+  for (const std::string& picture : pictures)
+    if (const uint64_t stamps = stampsOfPicture(picture, pathOf(scene.options.searchPaths, "texture")))
+      sum = contentSum(sum, uint64_t{stamps});
   return sum;
 }
 
@@ -122,10 +133,12 @@ std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const Render
     d.where = {};
     d.name.clear();
   }
+  const std::optional<uint64_t> ofShaders = shaderSum(scene, shaders);
+  if (!ofShaders) return {};
   Motion camera = scene.cameraFromWorld;
   const std::string version = std::string(kVersion) + sourceCommit(), text = settingsText(settings);
   return fmt::format("{:016x}",
-                     contentSum(worldSum(scene, false), shaderSum(scene, shaders), options, camera, version, text));
+                     contentSum(worldSum(scene, false), uint64_t{*ofShaders}, options, camera, version, text));
 }
 
 void describeOutputs(Options& options, const std::string& contents, const RenderSettings& settings) {
@@ -153,10 +166,11 @@ std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<S
 
 std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
                              const RenderSettings& settings) {
-  if (!settings.stored.atlasFolder.empty()) return {};
+  const std::optional<uint64_t> ofShaders = shaderSum(shot.scene, shaders);
+  if (!settings.stored.atlasFolder.empty() || !ofShaders) return {};
   const PixelRect& crop = shot.frame.crop;
   return fmt::format("{} {} {:016x} {:016x} {} {} {} {} {}", std::string(kVersion) + sourceCommit(), sum, buckets,
-                     shaderSum(shot.scene, shaders), settingsText(settings), crop.x0, crop.y0, crop.x1, crop.y1);
+                     *ofShaders, settingsText(settings), crop.x0, crop.y0, crop.x1, crop.y1);
 }
 
 void describeShot(Options& options, const std::string& sum, const RenderSettings& settings) {
@@ -181,7 +195,9 @@ bool isFinished(const Options& options, const std::string& contents, const Rende
     log.report(Severity::Note, "frame-unknown", where, "--skip-finished: " + why + ", so its frames are rendered");
     return false;
   };
-  if (contents.empty()) return rendered({}, "procedurals, or files of light, are read while the scene is rendered");
+  if (contents.empty())
+    return rendered(
+        {}, "procedurals, files of light, or files whose names shaders compute are read while the scene is rendered");
   for (const DisplayCall& d : options.displays) {
     const bool isFile = driverOf(d, options, pluginTrust(settings)).empty();
     DisplayCall described = d;
