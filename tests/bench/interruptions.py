@@ -1,17 +1,16 @@
-"""Ends a render at random moments by SIGTERM and SIGKILL in turn, resumes it with --resume, and tells what is done again: the CPU time of both runs
-together against that of one, and the share of the first run's gather rays that are traced again.
+"""Ends renders at random moments by SIGTERM and SIGKILL in turn, each six times, resumes them with --resume, and tells what is done again.
     interruptions.py build/release/tomales [SCENE.rib [KILLS [OPTIONS...]]]
     interruptions.py build/release/tomales --animation
-The second form ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished). Counts of rays have
-no noise, but a killed program tells none, so they are given for SIGTERM alone. Only rays of gathering count, because the partial picture that SIGTERM
-leaves is shaded after the signal, with direct light and rays of its own."""
+The second form ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished). CPU seconds of equal
+work differ on a busy machine, so what is done again is told for a frame: the CPU time of its seven runs beyond that of one, over the sum of what had
+been spent before each signal. The gather rays of each run are printed, except for those that were killed (0)."""
 import json
+import math
 import os
 import pathlib
 import random
 import resource
 import signal
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -30,18 +29,43 @@ def cpu_s():
     return used.ru_utime + used.ru_stime
 
 
-def render(picture, *more, after_s=None, number=None):
-    """Returns CPU seconds, gather rays (None if they are not told) and the exit code."""
+def used_s(process):
+    """Returns the CPU seconds that a running process has used; infinity if it has ended."""
+    try:
+        fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except FileNotFoundError:
+        return math.inf
+    return math.inf if fields[0] == "Z" else (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def render(picture, *more, after_s=math.inf, number=None):
+    """Sends the signal `number` after so many CPU seconds. Returns CPU seconds, gather rays (None if they are not told), and the exit code."""
     stats, before = folder / "stats.json", cpu_s()
     stats.unlink(missing_ok=True)
     process = subprocess.Popen([program, scene.name, "-o", folder / picture, "--one-picture", "-q", "--stats", stats, *options, *more], cwd=scene.parent, stderr=subprocess.DEVNULL)
-    try:
-        process.wait(after_s)
-    except subprocess.TimeoutExpired:
+    if number:
+        while used_s(process) < after_s:
+            time.sleep(0.005)
         process.send_signal(number)
-        process.wait()
+    process.wait()
     rays = json.loads(stats.read_text())["rays"]["gather"] if stats.exists() else None
     return cpu_s() - before, rays, process.returncode
+
+
+def interrupted(chance, usual_s, numbers):
+    """Ends a frame by these signals, at moments that are drawn from its usual CPU time. Returns the CPU seconds until each signal, and of all, and the
+    gather rays of each run."""
+    moments = sorted(chance.uniform(0.05, 0.95) * usual_s for _ in numbers)
+    total_s, until_s, rays = 0, [], []
+    for moment, number in zip(moments, numbers):
+        used, told, code = render("cut.exr", "--resume", after_s=max(moment - total_s, 0.1), number=number)
+        total_s += used
+        if code == 0:
+            raise SystemExit("the frame was finished before the signal")
+        until_s.append(total_s)
+        rays.append(told)
+    used, told, _ = render("cut.exr", "--resume")
+    return until_s, total_s + used, rays + [told]
 
 
 def animation(frames=20, kills=5):
@@ -71,25 +95,16 @@ def animation(frames=20, kills=5):
 if "--animation" in sys.argv:
     animation()
     sys.exit()
-start = os.times().elapsed
 whole_s, whole_rays, _ = render("whole.exr")
-elapsed_s = os.times().elapsed - start
 whole = (folder / "whole.exr").read_bytes()
-print(f"uninterrupted: {whole_s:.1f} CPU s, {whole_rays} gather rays; with --resume {render('cut.exr', '--resume')[0]:.1f} CPU s")
-chance = random.Random(1)
-both_s, again_rays, different = [], [], 0
-for k in range(kills):
-    number = (signal.SIGTERM, signal.SIGKILL)[k % 2]
-    spent_s, spent_rays, code = render("cut.exr", "--resume", after_s=chance.uniform(0.1, 0.95) * elapsed_s, number=number)
-    rest_s, rest_rays, _ = render("cut.exr", "--resume")
+print(f"uninterrupted: {whole_s:.1f} CPU s, {whole_rays} gather rays")
+chance, different = random.Random(1), 0
+PER_FRAME = 6
+for k in range(kills // PER_FRAME):
+    usual_s = render("cut.exr", "--resume")[0]
+    numbers = [(signal.SIGTERM, signal.SIGKILL)[n % 2] for n in range(PER_FRAME)] if k % 2 else [signal.SIGTERM] * 3 + [signal.SIGKILL] * 3
+    until_s, total_s, rays = interrupted(chance, usual_s, numbers)
     different += (folder / "cut.exr").read_bytes() != whole
-    if code == 0:
-        continue  # The frame was done before the signal came.
-    both_s.append(spent_s + rest_s)
-    said = f"{number.name} after {spent_s:.2f} CPU s: {rest_s:.2f} for the rest"
-    if spent_rays:
-        again_rays.append((spent_rays + rest_rays - whole_rays) / spent_rays)
-        said += f"; {100 * again_rays[-1]:.1f} % of the gather rays again"
-    print(said, flush=True)
-print(f"{len(both_s)} interruptions: {different} pictures differ; both runs together: median {statistics.median(both_s):.2f} CPU s, "
-      f"{min(both_s):.2f} to {max(both_s):.2f}; gather rays again: at most {100 * max(again_rays):.1f} %")
+    print(f"{' '.join(n.name for n in numbers)} after {' '.join(f'{s:.1f}' for s in until_s)} CPU s: {total_s:.1f} in all, {usual_s:.1f} without; "
+          f"done again {100 * (total_s - usual_s) / sum(until_s):.1f} %; gather rays {rays}", flush=True)
+print(f"{different} pictures differ")
