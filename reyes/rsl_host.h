@@ -48,10 +48,11 @@ RslValue rslValue(const TmShader& shader, int32_t parameter, const TmGrid& grid)
 /// Does the same before anything is shaded. Returns nothing if the value depends on the points or on the scene.
 std::optional<RslValue> rslFixedValue(const TmShader& shader, int32_t parameter, const TmValue* params);
 
-/// The files that a shader reads while it runs, such as textures.
+/// The files that a shader needs when it runs, such as textures.
 struct RslReads {
-  std::vector<std::string> names;  ///< Constants and defaults of parameters, among which the names are.
-  bool isKnown = true;             ///< False if a name is computed, or told by the scene or another shader.
+  /// Plugins whose functions it calls; constants and defaults of parameters, among which the names of files are.
+  std::vector<std::string> names;
+  bool isKnown = true;  ///< False if a name is computed, or told by the scene or another shader.
 };
 /// Returns none if the shader is not written in RSL.
 RslReads rslReads(const TmShader& shader);

@@ -1,6 +1,6 @@
 // Finds the files that a shader reads while it runs, such as textures: their names stand in its text, are parameters,
 // or are computed.
-#include <algorithm>
+#include <dlfcn.h>
 
 #include "reyes/rsl/hosted_shader.h"
 #include "reyes/rsl/passes/walk.h"
@@ -61,6 +61,9 @@ int32_t fileOf(const Code& code, const Instruction& i) {
 }
 
 void addReads(const Code& code, RslReads& out) {
+  for (const Builtin* function : code.plugins)
+    if (Dl_info plugin{}; dladdr(reinterpret_cast<const void*>(function->plugin), &plugin) != 0 && plugin.dli_fname)
+      out.names.emplace_back(plugin.dli_fname);
   const std::vector<char> unknown = unknownTexts(code);
   bool any = false;
   forEach(code.body, [&](const Instruction& i) {

@@ -42,7 +42,8 @@ def expect(name, wanted, what, tolerance=1e-3, **more):
     t.expect(off < tolerance, f"  {what} (off by {off:.2g})")
 
 
-build("functions", (source / "docs/example_plugin/functions.c").read_text(), "plugins")
+FUNCTIONS = (source / "docs/example_plugin/functions.c").read_text()
+build("functions", FUNCTIONS, "plugins")
 t.trust_shaders("plugins")
 t.write("woven.sl", "surface woven() { Oi = 1; Ci = weave(4 * s, 4 * t); }\n")
 expect("woven", lambda s, t: ((math.floor(4 * s) + math.floor(4 * t)) % 2,) * 3, "a number of numbers")
@@ -57,6 +58,13 @@ t.expect_run("and --dump shows them", ["compile", "woven.sl", "--dump", "code"],
 t.expect_run("shadetest knows them", ["shadetest", "woven.sl", "--grid", "8x8"], 0)
 t.write("own.sl", "float weave(float a, b) { return 0; }\nsurface own() { Oi = 1; Ci = weave(s, t); }\n")
 expect("own", lambda s, t: (0, 0, 0), "a function of the file comes first")
+
+# The plugin counts for --skip-finished.
+line = ["woven.rib", "-o", "woven.exr", "--skip-finished"]
+t.expect_run("a frame whose plugin is the same", line, 0, "frame-skipped")
+build("functions", FUNCTIONS.replace("fmodf(fabsf(x + y), 2)", "1 - fmodf(fabsf(x + y), 2)"), "plugins")
+t.expect("frame-skipped" not in t.expect_run("one whose plugin has changed", line, 0).stderr, "is rendered again")
+build("functions", FUNCTIONS, "plugins")
 
 # The function does not exist.
 t.write("lacking.sl", "surface lacking() { Oi = 1; Ci = crochet(s, t); }\n")
