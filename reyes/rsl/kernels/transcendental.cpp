@@ -63,7 +63,10 @@ RSL_KERNEL(Log) {
   each(blocks, out, in, [](float x) RSL_INLINED { return logOf(x); });
 }
 RSL_KERNEL(Pow) {
-  each(blocks, out, in, [](float x, float y) RSL_INLINED { return powOf(x, y); });
+  eachByReach(
+      blocks, out, in, [](float x, float y) RSL_INLINED { return isPlainPower(x, y); },
+      [](float x, float y) RSL_INLINED { return plainPowOf(x, y); },
+      [](float x, float y) RSL_INLINED { return powOf(x, y); });
 }
 RSL_KERNEL(Asin) {
   each(blocks, out, in, [](float x) RSL_INLINED { return asinOf(x); });

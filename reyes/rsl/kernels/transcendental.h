@@ -34,23 +34,32 @@ RSL_INLINE double exp2Of(double x) {
                     0.0096184889600560896, 0.0013399931312495374, 0.00015345811162244401) *
          doubleOf((bitsOf(sum) << 52) + (uint64_t{1023} << 52));
 }
-/// Returns the logarithm of a number that is not negative, to base 2.
-RSL_INLINE double log2Of(float x) {
+/// Returns the logarithm of a positive, finite number, to base 2.
+RSL_INLINE double plainLog2Of(float x) {
   const uint64_t bits = bitsOf(x);  // a double holds the subnormal floats as normal numbers
   const double exponent = doubleOf((bits >> 52) | bitsOf(0x1p52)) - (0x1p52 + 1023),
                mantissa = doubleOf((bits & 0xfffffffffffff) | bitsOf(1));
   const bool upper = mantissa > 0x1.6a09e667f3bcdp+0;  // the square root of 2
   const double m = upper ? 0.5 * mantissa : mantissa, s = (m - 1) / (m + 1);
-  const double log2 =
-      (upper ? exponent + 1 : exponent) + s * polynomial(s * s, 2.8853900817900854, 0.9617966733409624,
-                                                         0.57708358511661668, 0.41167271130592184, 0.3407302279646198);
-  const double finite = x < static_cast<float>(kInfinite) ? log2 : static_cast<double>(x);
+  return (upper ? exponent + 1 : exponent) + s * polynomial(s * s, 2.8853900817900854, 0.9617966733409624,
+                                                            0.57708358511661668, 0.41167271130592184,
+                                                            0.3407302279646198);
+}
+/// Does so for any number that is not negative.
+RSL_INLINE double log2Of(float x) {
+  const double finite = x < static_cast<float>(kInfinite) ? plainLog2Of(x) : static_cast<double>(x);
   return x == 0 ? -kInfinite : finite;
 }
 RSL_INLINE float expOf(float x) { return static_cast<float>(exp2Of(x * kLog2OfE)); }
 RSL_INLINE float logOf(float x) {
   return x <= 0 ? -std::numeric_limits<float>::max() : static_cast<float>(kLogOf2 * log2Of(x));
 }
+/// Tells whether plainPowOf() gives what powOf() gives.
+RSL_INLINE bool isPlainPower(float x, float y) {
+  const float finite = std::numeric_limits<float>::max();
+  return (x > 0) & (x <= finite) & (std::abs(y) <= finite);
+}
+RSL_INLINE float plainPowOf(float x, float y) { return static_cast<float>(exp2Of(y * plainLog2Of(x))); }
 RSL_INLINE float powOf(float x, float y) {
   const float size = std::abs(x), finite = std::numeric_limits<float>::max();
   const bool whole = rsl::wholeBelow(y) == y, odd = whole & (rsl::wholeBelow(0.5f * y) != 0.5f * y);

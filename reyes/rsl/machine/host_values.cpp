@@ -112,7 +112,7 @@ void take(Run& run, int32_t r, const Source& s) {
       std::fill_n(to, n, *s.c[c]);
     else
       std::copy_n(s.c[c], n, to);
-    for (int32_t i = 0; s.reversed && i < n; ++i) to[i] = -to[i];
+    if (s.reversed) negate(n, to, to);
   }
 }
 
@@ -191,11 +191,15 @@ void storeGlobal(Run& run, Global global, int32_t r) {
   if (global == Global::Oi) storeTriple(run, r, g.Oi);
   if (global == Global::Cl) storeTriple(run, r, g.Cl);
   if (global == Global::alpha && g.alpha) storeComponent(run, run.lane(r).data, run.varies(r), g.alpha);
-  if (global == Global::L && !isArea(g)) {  // otherwise the host sets L
+  if (global == Global::L && g.L.x && !isArea(g)) {  // otherwise the host sets L
     const Lanes& l = run.lane(r);
-    for (ptrdiff_t c = 0; c < 3; ++c)
-      for (int32_t i = 0; l.block != 0 && i < run.padded; ++i) l.data[c * l.component + i] *= -1;
-    storeTriple(run, r, g.L);
+    float* const to[3] = {g.L.x, g.L.y, g.L.z};
+    for (ptrdiff_t c = 0; c < 3; ++c) {
+      float* const from = l.data + c * l.component;
+      const bool straight = run.everywhere && l.block != 0;
+      negate(l.block == 0 ? kBlock : run.padded, from, straight ? to[c] : from);
+      if (!straight) storeComponent(run, from, l.block != 0, to[c]);
+    }
   }
 }
 

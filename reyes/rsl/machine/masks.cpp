@@ -58,4 +58,9 @@ TOMALES_HOT void fillWhere(int n, const uint8_t* on, float value, float* to) {
   for (int i = 0; i < n; ++i) to[i] = on[i] ? value : to[i];
 }
 
+TOMALES_HOT void negate(int n, const float* from, float* to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) to[i] = -from[i];
+}
+
 }  // namespace tomales::compiler

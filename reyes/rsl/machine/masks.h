@@ -4,7 +4,7 @@
 
 namespace tomales::compiler {
 
-// --- These work on n bytes of masks; n is a multiple of kBlock.
+// --- These work on n points (a multiple of kBlock).
 
 /// Sets `on` to 1 where `active` is not 0 among the first `count` points, and to 0 elsewhere. Returns whether any are
 /// 1.
@@ -17,6 +17,7 @@ bool remove(int n, const uint8_t* leaving, uint8_t* from);
 bool both(int n, const uint8_t* a, const uint8_t* b, uint8_t* out);
 void copyWhere(int n, const uint8_t* on, const float* from, float* to);
 void fillWhere(int n, const uint8_t* on, float value, float* to);
+void negate(int n, const float* from, float* to);
 
 /// A mask within the run's mask, which counts while this object lives. At first it has the same points.
 class Narrowed {

@@ -123,6 +123,7 @@ void Program::locate() {
       if (r.slot < 0) next += size;
       if (r.origin == Origin::Variable || l.partly) cleared_.push_back({r.varying, l.at, l.at + size});
     }
+    if (l.where != Where::Texts) numbers_.push_back({static_cast<int32_t>(k), l.at, l.where, r.shape != Shape::Number});
   }
   join(cleared_);
 }

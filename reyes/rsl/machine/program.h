@@ -56,6 +56,13 @@ class Program {
   const Located& located(int32_t r) const { return located_[static_cast<size_t>(r)]; }
   const float* constants() const { return constants_.data(); }
   const PreparedBlock& body() const { return body_; }
+  /// The registers that hold numbers and are used.
+  struct Numbers {
+    int32_t reg, at;
+    Where where;
+    bool several;  ///< They have more than one component.
+  };
+  const std::vector<Numbers>& numbers() const { return numbers_; }
   /// Returns the globals and parameters that are used, in the order of their numbers.
   const std::vector<int32_t>& ofHost() const { return ofHost_; }
   /// Registers that may be read before they are written, as a range [from, to) of floats for each point (varying) or of
@@ -79,6 +86,7 @@ class Program {
   std::vector<bool> used_, left_;  // by register; by label
   AlignedVector<float> constants_;
   std::vector<Cleared> cleared_;
+  std::vector<Numbers> numbers_;
   std::vector<int32_t> ofHost_;
   PreparedBlock body_;
   int32_t varying_ = 0, uniform_ = 0, texts_ = 0;

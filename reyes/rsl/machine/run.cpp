@@ -27,25 +27,17 @@ Run::Run(const Program& p, const TmGrid& g)
     std::fill((c.varying ? varying : uniform) + static_cast<size_t>(c.from) * one,
               (c.varying ? varying : uniform) + static_cast<size_t>(c.to) * one, 0.0f);
   }
-  lanes = new (memory.floats(registers * sizeof(Lanes) / sizeof(float))) Lanes[registers];
+  lanes = reinterpret_cast<Lanes*>(memory.floats(registers * sizeof(Lanes) / sizeof(float)));
   texts = memory.openTexts(static_cast<size_t>(p.texts()));
-  for (size_t k = 0; k < registers; ++k) {
-    const Located& l = p.located(static_cast<int32_t>(k));
-    const bool several = p.code().registers[k].shape != Shape::Number;
-    switch (l.where) {
-      case Where::Constant:  // kernels do not write their inputs
-        lanes[k] = {const_cast<float*>(p.constants()) + l.at, 0, several ? kBlock : 0};
-        break;
-      case Where::Uniform:
-        lanes[k] = {uniform + static_cast<ptrdiff_t>(l.at) * kBlock, 0, several ? kBlock : 0};
-        break;
-      case Where::Varying:
-      case Where::Given:
-        lanes[k] = {varying + static_cast<ptrdiff_t>(l.at) * padded, kBlock, several ? padded : 0};
-        break;
-      default:
-        break;
-    }
+  const auto padding = static_cast<ptrdiff_t>(padded);
+  for (const Program::Numbers& n : p.numbers()) {
+    Lanes* const to = lanes + n.reg;
+    if (n.where == Where::Constant)  // kernels do not write their inputs
+      new (to) Lanes{const_cast<float*>(p.constants()) + n.at, 0, n.several ? kBlock : 0};
+    else if (n.where == Where::Uniform)
+      new (to) Lanes{uniform + static_cast<ptrdiff_t>(n.at) * kBlock, 0, n.several ? kBlock : 0};
+    else
+      new (to) Lanes{varying + n.at * padding, kBlock, n.several ? padded : 0};
   }
   whole.on = memory.bytes(points);
   whole.any = begin(padded, count, g.active, whole.on);

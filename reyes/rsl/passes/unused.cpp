@@ -49,7 +49,10 @@ class Removal {
       });
       sweep(code_.body);
     } while (removed_);
+    writes_ = writeCounts(code_);
+    for (size_t r = 0; r < code_.registers.size(); ++r) by_.push_back(static_cast<int32_t>(r));
     join(code_.body);
+    forEach(code_.body, [&](Instruction& i) { replaceReads(i, by_); });
   }
 
  private:
@@ -74,7 +77,8 @@ class Removal {
     removed_ |= std::erase_if(block, [&](const Instruction& i) { return isUseless(i); }) > 0;
   }
 
-  /// `t = a + b; x = t` becomes `x = a + b`, where t has no other reader.
+  /// `t = a + b; x = t` becomes `x = a + b`, where t has no other reader, or its readers find the same in x because
+  /// nothing else is ever assigned to it.
   void join(Block& block) {
     for (Instruction& i : block)
       for (Block& inner : i.blocks) join(inner);
@@ -84,18 +88,20 @@ class Removal {
       if (!info(first.op).kernel() || first.op == Op::Copy) continue;
       const int32_t t = first.out[0], x = second.out[0];
       const Register &from = code_.registers[static_cast<size_t>(t)], &to = code_.registers[static_cast<size_t>(x)];
-      if (from.origin != Origin::Temporary || reads_[static_cast<size_t>(t)] != 1) continue;
+      const bool lasts = writes_[static_cast<size_t>(x)] == 1 && writes_[static_cast<size_t>(t)] == 1;
+      if (from.origin != Origin::Temporary || (reads_[static_cast<size_t>(t)] != 1 && !lasts)) continue;
       if (from.shape != to.shape || from.varying != to.varying || to.length != 0) continue;
       // Only componentwise kernels may write over what they read.
       const bool overlaps = std::find(first.in.begin(), first.in.end(), x) != first.in.end();
       if (overlaps && (!info(first.op).componentwise() || from.shape != Shape::Number)) continue;
-      first.out[0] = x;
+      first.out[0] = by_[static_cast<size_t>(t)] = x;
       block.erase(block.begin() + static_cast<long>(k) + 1);
     }
   }
 
   Code& code_;
-  std::vector<int> reads_;
+  std::vector<int> reads_, writes_;
+  std::vector<int32_t> by_;  ///< What stands for each register in the end.
   bool removed_ = false;
 };
 

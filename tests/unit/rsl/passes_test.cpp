@@ -52,6 +52,18 @@ TEST_F(Passes, WhatNobodyReadsIsNotComputed) {
   EXPECT_EQ(count("Bake3d", "bake3d(\"a\", \"b\", P, N, \"b\", s); x = 1;"), 1) << "it has an effect";
 }
 
+TEST_F(Passes, WhatIsAssignedOnceIsComputedInItsPlace) {
+  const auto copies = [&](const std::string& body) {
+    const std::string text = dump(code(body, "light"));
+    size_t n = 0;
+    for (size_t at = 0; (at = text.find(".L = Copy", at)) != text.npos; ++at) ++n;
+    return n;
+  };
+  const std::string cone = "illuminate(point \"current\" (0, 0, 1), vector \"current\" (0, 0, 1), .5) Cl = length(L);";
+  EXPECT_EQ(copies(cone), 0u) << "the cone is asked of L itself";
+  EXPECT_EQ(copies(cone + cone), 4u) << "L changes";
+}
+
 TEST_F(Passes, WhatIsTheSameForAllPointsIsComputedOnce) {
   EXPECT_NE(dump(code("x = sin(p) * s;")).find("uf"), std::string::npos);
   for (const Register& r : code("float a = p * 2; if (s > 2) a = 1; x = a;").registers)

@@ -1,6 +1,7 @@
 // Kernels against the C library in double precision, over dense sweeps; infinities and the like against C's own rules.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "references.h"
@@ -132,6 +133,23 @@ TEST(TranscendentalKernels, PowOfAnyBitsIsAsInCAndZeroWhereThereIsNoPower) {
   std::pair<float, float> worst;
   const auto any = [&] { return std::make_pair(numbers.any(), numbers.any()); };
   EXPECT_LE(largestErrorOfPairs(Op::Pow, kMany, any, powOf, worst), kLargest) << worst.first << ", " << worst.second;
+}
+TEST(TranscendentalKernels, PowHasTheSameBitsWhateverStandsBesideIt) {
+  Values x(1, 1, true), y(1, 1, true), alone(1, 1, true), beside(1, 1, true);
+  const Lanes from[] = {x.lanes(), y.lanes()};
+  Numbers numbers(6);
+  for (int round = 0; round < 1000; ++round) {
+    for (size_t k = 0; k < kBlock; ++k) {
+      x.data[k] = round % 10 == 0 ? 1 : std::abs(numbers.bits());
+      y.data[k] = round % 10 == 1 ? 0 : numbers.within(-20, 20);
+    }
+    kernelOf(Op::Pow)(1, alone.lanes(), from);
+    x.data[0] = round % 2 == 0 ? 0 : -1;
+    kernelOf(Op::Pow)(1, beside.lanes(), from);
+    for (size_t k = 1; k < kBlock; ++k)
+      EXPECT_EQ(std::bit_cast<uint32_t>(alone.data[k]), std::bit_cast<uint32_t>(beside.data[k]))
+          << "pow(" << x.data[k] << ", " << y.data[k] << ")";
+  }
 }
 TEST(TranscendentalKernels, Atan2OfAnyBitsIsAsInC) {
   Numbers numbers(5);
