@@ -32,17 +32,22 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   const float open = scene_.options.shutterOpen;
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);
-  static constexpr const char* kConsequences[] = {"a magenta checker is rendered", "nothing is displaced",
-                                                  "it casts no light", "the air is clear",
-                                                  "the picture stays as it is"};
+  const std::string light = call && kind == TM_LIGHT ? standardLightFor(*call, area) : "";
+  const std::string consequences[] = {"a magenta checker is rendered", "nothing is displaced",
+                                      fmt::format("\"{}\" stands in for it", light), "the air is clear",
+                                      "the picture stays as it is"};
   log_.report(Severity::Missing, "shader-missing", where,
               fmt::format("{}: {} shader \"{}\" is unknown{}; {}", user, kindName(kind), name,
-                          registry_.hintOfMissing(name, kind, path_, beside), kConsequences[kind]),
+                          registry_.hintOfMissing(name, kind, path_, beside), consequences[kind]),
               fmt::format("{} {}", kindName(kind), name));
   log_.report(Severity::Note, "shader-folders", {},
               fmt::format("shaders that are not built in (tomales list shaders) were looked for as NAME.sl in {}; "
                           "--shaders FOLDER names another folder",
                           listOfFolders(registry_.textFolders(path_, beside))));
+  if (const TmShader* instead = light.empty() ? nullptr : registry_.find(light, kind, path_, beside)) {
+    const ShaderCall likely = callFor(*instead, *call);
+    return bindShader(*instead, &likely, where, user, currentFromShader, log_);
+  }
   if (kind != TM_SURFACE) return nullptr;
   return bindShader(substituteSurface(), nullptr, where, user, currentFromShader, log_);
 }

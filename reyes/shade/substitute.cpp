@@ -1,8 +1,11 @@
 #include "reyes/shade/substitute.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "reyes/base/text.h"
 #include "reyes/shader/params.h"
+#include "reyes/shader_registry.h"
 
 namespace tomales {
 namespace {
@@ -25,6 +28,34 @@ const TmShader& substituteSurface() {
   static const rsl::Shader shader(TM_SURFACE, "(missing shader)", "stands in for a missing surface shader", 0,
                                   shadeSubstitute, {});
   return *shader;
+}
+
+const char* standardLightFor(const ShaderCall& call, bool area) {
+  if (area) return "arealight";
+  static constexpr struct {
+    const char *part, *light;
+  } kNames[] = {{"ambient", "ambientlight"},     {"occlusion", "ambientlight"}, {"sky", "ambientlight"},
+                {"environment", "ambientlight"}, {"spot", "spotlight"},         {"distant", "distantlight"},
+                {"sun", "distantlight"},         {"point", "pointlight"}};
+  const std::string name = lowerCase(call.name);
+  for (const auto& [part, light] : kNames)
+    if (name.find(part) != name.npos) return light;
+  const auto gives = [&](const char* parameter) { return findParam(call.params, parameter) != nullptr; };
+  if (gives("coneangle") || gives("conedeltaangle") || gives("beamdistribution")) return "spotlight";
+  if (gives("to")) return "distantlight";
+  const bool placed = call.worldFromShader != Motion{};
+  return gives("from") || placed ? "pointlight" : "ambientlight";
+}
+
+ShaderCall callFor(const TmShader& shader, const ShaderCall& call) {
+  const std::span<const TmParamDecl> own(shader.params, static_cast<size_t>(shader.paramCount)),
+      standard = standardParams(static_cast<TmKind>(shader.kind));
+  const auto has = [](std::span<const TmParamDecl> list, const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const TmParamDecl& d) { return d.name == name; });
+  };
+  ShaderCall out = call;
+  std::erase_if(out.params, [&](const Param& p) { return !has(own, p.name) && !has(standard, p.name); });
+  return out;
 }
 
 }  // namespace tomales

@@ -113,6 +113,30 @@ TEST_F(Binding, UnknownShadersAreReportedWithPlaceAndObjectAndReplacedLoudly) {
   EXPECT_EQ(entries[2].where.line, 8);
 }
 
+TEST_F(Binding, AStandardLightWithItsParametersStandsInForOneThatIsMissing) {
+  const auto lit = [&](const std::string& name, const ParamList& params, bool placed = false) {
+    shading.reset();
+    scene.objects.clear();
+    scene.lights.clear();
+    attributes.lights = {};
+    LightCall& call = light(name, params);
+    if (placed) call.shader.worldFromShader.keys[0][3] = vec4(0, 0, 3, 1);
+    surface("matte");
+    return shadeOne().x;  // P = (0, 0, 5) faces the camera
+  };
+  const Param from = point("from", {0, 0, 3}), to = point("to", {0, 0, 9}), bright = number("intensity", 2);
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright, number("fuzz", 1)}), 2) << "ambient";
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright}, true), 0.5f) << "a point where it is placed";
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright, from}), 0.5f) << "a point";
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright, from, to}), 2) << "parallel";
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright, from, to, number("coneangle", 0.3f)}), 0.5f) << "a spot";
+  EXPECT_FLOAT_EQ(lit("nosuch", {bright, from, point("to", {0, 0, 1}), number("coneangle", 0.3f)}), 0) << "averted";
+  EXPECT_FLOAT_EQ(lit("MySpotLight", {bright, from, to}), 0.5f) << "by its name";
+  EXPECT_FLOAT_EQ(lit("softAmbient", {bright}, true), 2) << "by its name";
+  EXPECT_EQ(log.worst(), Severity::Missing);
+  EXPECT_EQ(log.count("shader-parameter-unknown"), 0) << "what only the missing shader has";
+}
+
 TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
   surface("matte", {number("Kx", 3), number("Ky", 3), color("Kd", {2, 2, 2})});
   light("distantlight");
