@@ -155,8 +155,10 @@ class GiServices final : public ShadeServices {
              const ShadeContext&, const RayResult&) const override;
   bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                      const EmitterPoints& out) const override;
-  bool sampleWholeEmitter(int light, int count, const float* xi0, const float* xi1,
+  bool sampleWholeEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                           const EmitterPoints& out) const override;
+  void meetWholeEmitter(int light, int layer, int count, TmConstVec3 from, TmConstVec3 direction,
+                        const EmitterPoints& out) const override;
   void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                    const EmitterPoints& out) const override;
   void storedIrradiance(const ShadePoints&, const uint8_t* active, TmVec3 E) const override;

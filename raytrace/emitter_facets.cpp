@@ -25,9 +25,11 @@ std::optional<EmitterFacet> facetOf(const std::array<vec3, 4>& corners, const ve
 }
 
 float distanceTo(const EmitterFacet& facet, const vec3& from, const vec3& direction) {
-  const float cosine = dot(facet.normal, direction);
-  if (!(cosine < 0)) return kInfinity;
-  const float t = dot(facet.normal, facet.corners[0] - from) / cosine;
+  return dot(facet.normal, direction) < 0 ? distanceToAnySide(facet, from, direction) : kInfinity;
+}
+
+float distanceToAnySide(const EmitterFacet& facet, const vec3& from, const vec3& direction) {
+  const float t = dot(facet.normal, facet.corners[0] - from) / dot(facet.normal, direction);
   if (!(t > 0)) return kInfinity;
   for (size_t k = 0; k < 4; ++k)
     if (beside(facet, k, from + t * direction) < 0) return kInfinity;

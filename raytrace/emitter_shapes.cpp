@@ -14,6 +14,7 @@ constexpr double kFullTurn = 2 * 3.14159265358979323846;
 // Below this solid angle (that of a lamp of 1 m at 30 km) the formula gives rounding errors only, and all points of a
 // shape are equally far.
 constexpr double kLeastSolidAngle = 1e-9;
+constexpr double kTouch = 1e-4;        ///< A direction does not meet the shape from so near, in radii.
 constexpr double kLeastCosine = 1e-5;  ///< Rounding leaves points of the emitter's own plane slightly in front of it.
 
 /// A rectangle as seen from a point; names as in the paper.
@@ -273,6 +274,28 @@ SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& directio
   if (at.u * at.u + at.v * at.v > 1) return {};
   const EllipticalCone cone(shape, from);
   return onFlat(shape, at.P, cone.empty() ? areaPdf() : cone.pdf(unit));
+}
+
+void crossings(const EmitterShape& shape, const vec3& from, const vec3& direction, std::vector<SeenPoint>& out) {
+  const dvec3 center = shape.center, d = center - dvec3(from), unit = glm::normalize(dvec3(direction));
+  const float pdf = 1 / shape.area();
+  if (shape.kind == EmitterShape::Kind::Sphere) {
+    const double r = glm::length(dvec3(shape.u)), along = dot(d, unit);
+    const dvec3 miss = d - along * unit;
+    const double half2 = r * r - dot(miss, miss);
+    for (const double side : {-1.0, 1.0}) {
+      const double t = along + side * std::sqrt(std::max(0.0, half2));
+      if (half2 > 0 && t > kTouch * r) out.push_back({vec3(dvec3(from) + t * unit), vec3((t * unit - d) / r), pdf});
+    }
+    return;
+  }
+  const dvec3 u = shape.u, v = shape.v, n = shape.normal;
+  const double cosine = dot(unit, n), t = dot(d, n) / cosine;
+  if (!(std::abs(cosine) > kLeastCosine) || !(t > kTouch * glm::length(u))) return;
+  const dvec3 P = t * unit - d;
+  const double x = dot(P, u) / dot(u, u), y = dot(P, v) / dot(v, v);
+  const bool meets = shape.kind == EmitterShape::Kind::Disk ? x * x + y * y <= 1 : std::abs(x) <= 1 && std::abs(y) <= 1;
+  if (meets) out.push_back({vec3(center + P), shape.normal, pdf});
 }
 
 }  // namespace tomales

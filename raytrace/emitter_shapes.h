@@ -4,6 +4,8 @@
 //   disk       the elliptical cone that it fills: azimuth from a table of its angular width, height uniformly
 // Each shines from one side alone. Space: any; threads: pure.
 #pragma once
+#include <vector>
+
 #include "reyes/base/math.h"
 
 namespace tomales {
@@ -30,6 +32,9 @@ struct SeenPoint {
 SeenPoint sampleSolidAngle(const EmitterShape& shape, const vec3& from, const vec2& xi);
 /// Returns the point that a ray along the unit `direction` meets, with the density of a sample there.
 SeenPoint meet(const EmitterShape& shape, const vec3& from, const vec3& direction);
+
+/// Adds the points in which the unit `direction` passes the shape, from any side. Their density is over area.
+void crossings(const EmitterShape& shape, const vec3& from, const vec3& direction, std::vector<SeenPoint>& out);
 
 /// Converts a density over area to one over solid angle. It becomes 0 where the back is seen.
 double solidAnglePdf(const vec3& from, const vec3& P, const vec3& N, double areaPdf);

@@ -109,6 +109,11 @@ void put(const EmitterPoints& out, int i, const vec3& P, const vec3& N, double p
   if (out.meetPdf) out.meetPdf[i] = static_cast<float>(meetPdf);
 }
 
+/// Converts a density over area to one over solid angle, whichever side is seen.
+double eitherSidePdf(const vec3& from, const vec3& P, const vec3& N, double areaPdf) {
+  return solidAnglePdf(from, P, dot(N, P - from) > 0 ? -N : N, areaPdf);
+}
+
 vec3 at(TmConstVec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 }  // namespace
@@ -248,7 +253,7 @@ void Emitters::meet(int light, int count, TmConstVec3 from, TmConstVec3 directio
 }
 
 bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area,
-                      int* group) const {
+                      int* group, uint8_t* met) const {
   if (!shines(light)) return false;
   const EmitterLight& emitters = given(light);
   const Light& l = sources(light);
@@ -256,6 +261,7 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     double u{xi0[i]};
     const size_t pick = l.areas.pick(u);
     AreaPoint p;
+    if (met) met[i] = pick < emitters.shapes.size() || l.sources[pick - emitters.shapes.size()].met;
     if (pick < emitters.shapes.size()) {
       const SeenPoint onShape = sampleArea(emitters.shapes[pick], {static_cast<float>(u), xi1[i]});
       p = {onShape.P, onShape.N, 1 / double{onShape.pdf}, emitters.shapes[pick].group};
@@ -268,6 +274,43 @@ bool Emitters::sample(int light, int count, const float* xi0, const float* xi1, 
     set(N, i, p.N);
   }
   return true;
+}
+
+bool Emitters::sampleWhole(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                           const EmitterPoints& out) const {
+  std::vector<uint8_t> met(static_cast<size_t>(count));
+  if (!sample(light, count, xi0, xi1, out.P, out.N, out.pdf, nullptr, met.data())) return false;
+  for (int i = 0; i < count; ++i) {
+    const double pdf = met[static_cast<size_t>(i)]
+                           ? eitherSidePdf(at(from, i), get(out.P, i), get(out.N, i), 1 / double{area(light)})
+                           : 0;
+    out.meetPdf[i] = static_cast<float>(pdf);
+    out.pdf[i] = out.pdf[i] > 0 ? area(light) / (kPi * out.pdf[i]) : 0.0f;
+  }
+  return true;
+}
+
+void Emitters::meetWhole(int light, int layer, int count, TmConstVec3 from, TmConstVec3 direction,
+                         const EmitterPoints& out) const {
+  std::vector<SeenPoint> found;
+  for (int i = 0; i < count; ++i) {
+    const vec3 eye = at(from, i), d = at(direction, i);
+    put(out, i, eye, vec3(0), 0, 0);
+    found.clear();
+    for (size_t s = 0; known(light) && s < given(light).shapes.size(); ++s)
+      crossings(given(light).shapes[s], eye, d, found);
+    for (size_t f = 0; known(light) && f < sources(light).facets.size(); ++f) {
+      const EmitterFacet& facet = sources(light).facets[f];
+      const float distance = distanceToAnySide(facet, eye, d);
+      if (distance < kInfinity) found.push_back({eye + distance * d, facet.normal, 0});
+    }
+    if (found.size() <= static_cast<size_t>(layer)) continue;
+    const auto chosen = found.begin() + layer;
+    std::nth_element(found.begin(), chosen, found.end(),
+                     [&](const SeenPoint& a, const SeenPoint& b) { return dot(a.P - eye, d) < dot(b.P - eye, d); });
+    const double pdf = eitherSidePdf(eye, chosen->P, chosen->N, 1 / double{area(light)});
+    put(out, i, chosen->P, chosen->N, pdf, pdf);
+  }
 }
 
 }  // namespace tomales

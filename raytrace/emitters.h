@@ -48,15 +48,22 @@ class Emitters {
   /// Implements ShadeServices::sampleEmitter. xi0 chooses the emitter.
   bool sampleFrom(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                   const EmitterPoints& out) const;
+  /// Implements ShadeServices::sampleWholeEmitter.
+  bool sampleWhole(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                   const EmitterPoints& out) const;
+  /// Implements ShadeServices::meetWholeEmitter.
+  void meetWhole(int light, int layer, int count, TmConstVec3 from, TmConstVec3 direction,
+                 const EmitterPoints& out) const;
   /// Implements ShadeServices::meetEmitter.
   void meet(int light, int count, TmConstVec3 from, TmConstVec3 direction, const EmitterPoints& out) const;
 
   /// Samples points of the whole light, wherever they are seen from. xi0 chooses the lattice, xi1 its row and v, and
   /// the rest of xi0 the column and u, all by area. Over each lattice this is a continuous warp of the unit square, so
   /// that stratified points stay stratified. `area` is the Jacobian over the probability of the quad: the total area
-  /// wherever quads are parallelograms. `group`: as EmitterShape::group; may be null.
+  /// wherever quads are parallelograms. `group`: as EmitterShape::group. `met`: directions meet its emitter. Both may
+  /// be null.
   bool sample(int light, int count, const float* xi0, const float* xi1, TmVec3 P, TmVec3 N, float* area,
-              int* group = nullptr) const;
+              int* group = nullptr, uint8_t* met = nullptr) const;
 
  private:
   struct Source {

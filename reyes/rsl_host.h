@@ -29,8 +29,9 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// Tells whether the shader is such a form. Its Cl is not the radiance of the geometry, but the light that a lamp at
 /// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
-/// Tells whether the shader is such a form, and shines from both sides of its geometry: illuminate() has no cone.
-bool shinesAllRound(const TmShader& light);
+/// Tells whether the shader is such a form, and with these parameters may shine from both sides of its geometry: it is
+/// not one whose illuminate() has a cone around N of at most a right angle.
+bool shinesAllRound(const TmShader& light, const TmValue* params);
 
 /// The value of a shader's parameter, for other shaders that ask for it.
 struct RslValue {

@@ -156,16 +156,17 @@ bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const flo
   return emitters && emitters->sampleFrom(light, count, from, xi0, xi1, out);
 }
 
-bool GiServices::sampleWholeEmitter(int light, int count, const float* xi0, const float* xi1,
+bool GiServices::sampleWholeEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                                     const EmitterPoints& out) const {
   const Emitters* emitters = impl_->knownEmitters();
-  if (!emitters || !emitters->sample(light, count, xi0, xi1, out.P, out.N, out.pdf)) return false;
-  const float whole = emitters->area(light);
-  for (int i = 0; i < count; ++i) {
-    out.pdf[i] = out.pdf[i] > 0 ? whole / (kPi * out.pdf[i]) : 0.0f;
-    out.meetPdf[i] = 0;
-  }
-  return true;
+  return emitters && emitters->sampleWhole(light, count, from, xi0, xi1, out);
+}
+
+void GiServices::meetWholeEmitter(int light, int layer, int count, TmConstVec3 from, TmConstVec3 direction,
+                                  const EmitterPoints& out) const {
+  if (const Emitters* emitters = impl_->knownEmitters())
+    return emitters->meetWhole(light, layer, count, from, direction, out);
+  std::fill_n(out.pdf, count, 0.0f);
 }
 
 void GiServices::meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,

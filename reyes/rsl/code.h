@@ -79,6 +79,9 @@ struct Parameter {
   Place place{};
 };
 
+/// Half of pi, with room for the rounding of what a scene or a shader writes.
+constexpr float kRightAngle = 1.570797f;
+
 struct Code {
   ShaderKind kind = ShaderKind::Surface;
   std::string name, doc, path;
@@ -90,7 +93,8 @@ struct Code {
   int32_t labels = 0;
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
-  bool allRound = false;                         ///< True for a light with illuminate() without a cone.
+  bool allRound = false;                         ///< True for a light that may shine to the back of its geometry.
+  std::vector<int32_t> coneAngles;               ///< Parameters: it does so too if one is more than a right angle.
   uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/passes.h).
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 
 #include "reyes/rsl.h"
@@ -56,9 +57,13 @@ bool isMean(const TmShader& light) {
   return shader && shader->lowered().onGeometry;
 }
 
-bool shinesAllRound(const TmShader& light) {
+bool shinesAllRound(const TmShader& light, const TmValue* params) {
   const HostedShader* shader = HostedShader::of(light);
-  return shader && shader->lowered().onGeometry && shader->lowered().allRound;
+  if (!shader || !shader->lowered().onGeometry) return false;
+  // A default that the shader computes is not known here, and NaN.
+  return shader->lowered().allRound || std::ranges::any_of(shader->lowered().coneAngles, [&](int32_t k) {
+           return !(params[k].c[0] && *params[k].c[0] <= kRightAngle);
+         });
 }
 
 std::vector<std::string> rslTexts(const TmShader& shader) {

@@ -89,6 +89,25 @@ int Lowering::lightsOf(const Stmt& s) {
   return s.kind == StmtKind::While || s.kind == StmtKind::For ? 2 * sum : sum;
 }
 
+namespace {
+
+/// Tells whether the expression is N or Ng, perhaps normalized.
+bool isNormal(const Expr& e) {
+  if (e.kind == ExprKind::Call && e.text == "normalize" && e.args.size() == 1) return isNormal(*e.args[0]);
+  const int32_t global = e.kind == ExprKind::Name && e.variable ? e.variable->global : -1;
+  return global == static_cast<int32_t>(Global::N) || global == static_cast<int32_t>(Global::Ng);
+}
+
+}  // namespace
+
+void Lowering::noteCone(const Expr& axis, int32_t angle) {
+  const Register& r = code_.registers[static_cast<size_t>(angle)];
+  if (isNormal(axis) && r.origin == Origin::Parameter)
+    code_.coneAngles.push_back(r.index);
+  else
+    code_.allRound |= !isNormal(axis) || r.origin != Origin::Constant || r.floats[0] > kRightAngle;
+}
+
 void Lowering::illuminate(const Stmt& s) {
   const int32_t from = value(*s.exprs[0]), L = global(Global::L);
   const int32_t ray = compute(Op::Sub, {global(Global::Ps), from}, Shape::Triple);
@@ -99,9 +118,12 @@ void Lowering::illuminate(const Stmt& s) {
   if (cone && shinesFromMany_)
     direction = compute(Op::Select, {compute(Op::TripleEqual, {L, number(0)}), ray, L}, Shape::Triple);
   copy(L, direction);
-  code_.allRound |= !cone;
-  if (!cone) return statement(*s.body[0]);
+  if (!cone) {
+    code_.allRound = true;
+    return statement(*s.body[0]);
+  }
   const int32_t axis = compute(Op::Normalize, {value(*s.exprs[1])}), angle = value(*s.exprs[2]);
+  noteCone(*s.exprs[1], angle);
   const int32_t cosine = compute(Op::Dot, {compute(Op::Normalize, {ray}), axis});
   const int32_t inside = compute(Op::LessEqual, {compute(Op::Cos, {angle}, Shape::Number), cosine});
   ifElse(inside, block([&] {

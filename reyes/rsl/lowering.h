@@ -63,7 +63,9 @@ class Lowering {
 
   void illuminance(const Stmt& s);
   void illuminate(const Stmt& s);
-  /// Returns how many illuminate() or solar() may light one point; those in a loop count twice.
+  /// Notes where the cone of an illuminate() may shine, of which `angle` is the register.
+  void noteCone(const Expr& axis, int32_t angle);
+  /// Returns how many places from which a light shines may count at one point; those of a loop count twice.
   static int lightsOf(const Stmt& s);
   static int lightsOf(const Expr& e);
   void solar(const Stmt& s);

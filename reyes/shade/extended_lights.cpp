@@ -16,11 +16,15 @@ constexpr float kWorthOfSkySample = 0.25f;
 
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
-bool canBeMet(const BoundLight& light) { return hasExtent(light) && !shinesAllRound(*light.bound->shader); }
+bool shinesAllRound(const BoundLight& light) {
+  return shinesAllRound(*light.bound->shader, light.bound->values.data());
+}
 
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   const int n = g.count;
-  const EmitterPoints points{batch.arena.vec3(n), batch.arena.vec3(n), batch.arena.floats(n), batch.arena.floats(n)};
+  const int all = batch.tm.count;  // lightsource() may ask at neighbours
+  const EmitterPoints points{batch.arena.vec3(all), batch.arena.vec3(all), batch.arena.floats(n),
+                             batch.arena.floats(n)};
   if (light.can(TM_LIGHT_AREA)) {
     g.Pl = view(points.P);
     g.Nl = view(points.N);
@@ -31,9 +35,8 @@ EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   const ShadeServices* services = batch.scene.services;
   if (!services) return false;
-  if (shinesAllRound(*light.bound->shader)
-          ? !services->sampleWholeEmitter(light.index, g.count, g.xi0, g.xi1, points)
-          : !services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points))
+  if (shinesAllRound(light) ? !services->sampleWholeEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)
+                            : !services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points))
     return false;
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
   return true;
@@ -54,17 +57,19 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g) {
   }
   const bool ran = batch.run(*light.bound, g);
   g.L = asked;
-  const TmShader& shader = *light.bound->shader;
-  if (ran && isMean(shader) && !shinesAllRound(shader)) meanToRadiance(g, batch.scene.services, light.index);
   return ran;
 }
 
-bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
+bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe, int layer,
                const EmitterPoints& points) {
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(lobe.L, i));
   if (light.can(TM_LIGHT_AREA)) {
-    if (!batch.scene.services) return false;
-    batch.scene.services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
+    const ShadeServices* services = batch.scene.services;
+    if (!services) return false;
+    if (shinesAllRound(light))
+      services->meetWholeEmitter(light.index, layer, g.count, view(g.P), lobe.L, points);
+    else
+      services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
     for (int i = 0; i < g.count; ++i)
       if (points.pdf[i] > 0) set(g.L, i, get(g.Pl, i) - get(g.P, i));
     return true;
@@ -88,11 +93,13 @@ void radianceToSample(const TmGrid& g, const float* pdf) {
   }
 }
 
-void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light) {
-  const float area = services ? services->emitterArea(light) : 0.0f;
+void meanToRadiance(const TmGrid& g, const ShadeServices* services, const BoundLight& light) {
+  const float area = services ? services->emitterArea(light.index) : 0.0f;
+  const bool allRound = shinesAllRound(light);
   for (int i = 0; i < g.count; ++i) {
     const vec3 L = get(g.L, i), N = get(g.Nl, i);
-    const float distance2 = dot(L, L), cosine = -dot(L, N) / std::sqrt(distance2);
+    const float distance2 = dot(L, L), facing = -dot(L, N) / std::sqrt(distance2),
+                cosine = allRound ? std::abs(facing) : facing;
     set(g.Cl, i, area > 0 && cosine > 0 ? get(g.Cl, i) * (kPi * distance2 / (cosine * area)) : vec3(0.0f));
   }
 }

@@ -17,8 +17,8 @@ struct LobeDirections {
 };
 
 bool hasExtent(const BoundLight& light);
-/// Tells whether directions can meet it. Lights that shine all round are found by their own samples alone.
-bool canBeMet(const BoundLight& light);
+/// Tells whether the light shines from both sides of its geometry, and through it.
+bool shinesAllRound(const BoundLight& light);
 
 /// Makes room for the points on the emitter, which the grid then shows the shader.
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);
@@ -27,9 +27,10 @@ EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);
 /// (sampleWholeEmitter()).
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
 void sampleSky(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points);
-/// Finds where directions from the points meet the light, and the density of the light's own samples there. Returns
-/// false if nothing can be met. Pre: canBeMet().
-bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe,
+/// Finds where directions from the points meet the light, and the density of the light's own samples there. A light
+/// that shines all round is met in several points of a direction: `layer` counts them. Returns false if nothing can be
+/// met.
+bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirections& lobe, int layer,
                const EmitterPoints& points);
 
 /// Runs the light. A sky always lights along the given directions, even if its shader changes L.
@@ -37,8 +38,8 @@ bool runWithExtent(Batch& batch, const BoundLight& light, TmGrid& g);
 /// Changes Cl after the run of a light for which isMean() is true. Cl is the light that a lamp at one point of the
 /// geometry would bring; it becomes the radiance of the geometry there, so that the mean of Cl over the area arrives.
 /// The integral of radiance times cosine / distance^2 over the area is pi Cl, because diffuse() is E/pi.
-void meanToRadiance(const TmGrid& g, const ShadeServices* services, int light);
-/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `pdf` is the density of all samples
+void meanToRadiance(const TmGrid& g, const ShadeServices* services, const BoundLight& light);
+/// Converts radiance to what one of its samples adds to E/pi at normal incidence. `pdf` is that of all samples
 /// together, over solid angle.
 void radianceToSample(const TmGrid& g, const float* pdf);
 

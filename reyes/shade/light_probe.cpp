@@ -1,7 +1,6 @@
 // Lights as photons and the eye see them: they run alone, not for the shading of an object.
 #include <fmt/format.h>
 
-#include "reyes/rsl_host.h"
 #include "reyes/shade/batch.h"
 #include "reyes/shade/system.h"
 
@@ -17,7 +16,8 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   if (!probe.Pl.empty())
     for (size_t i = 0; i < n; ++i) set(batch.tm.L, static_cast<int>(i), probe.Pl[i] - probe.P[i]);
   const bool finished = batch.run(shader, batch.tm);
-  if (finished && isMean(*shader.shader)) meanToRadiance(batch.tm, impl_->services, light);
+  if (finished && isMean(*shader.shader))
+    meanToRadiance(batch.tm, impl_->services, *impl_->lights[static_cast<size_t>(light)]);
   probe.L.assign(n, vec3(0.0f));
   probe.Cl.assign(n, vec3(0.0f));
   for (size_t i = 0; finished && i < n; ++i) {
@@ -30,6 +30,40 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
   }
 }
 
+namespace {
+
+/// Points of a lamp farther than its coarse surface by more than this factor are others.
+constexpr float kBeyondNear = 1.01f;
+
+/// Lets the point P of a lamp, with the normal N, light an eye along I.
+void add(LightProbe& seen, const vec3& eye, const vec3& I, const vec3& P, const vec3& N) {
+  seen.P.push_back(eye);
+  seen.N.push_back(normalizeOr(I, I));
+  seen.Pl.push_back(P);
+  seen.Nl.push_back(normalizeOr(N, N));
+}
+
+/// Adds where the rays to points on a lamp leave it again: what lies behind shines through.
+void addFarSides(const ShadePoints& points, int light, const ShadeServices* services, std::vector<size_t>& front,
+                 LightProbe& seen) {
+  const size_t n = services ? front.size() : 0;
+  for (size_t k = 0; k < n; ++k) {
+    const int i = static_cast<int>(front[k]);
+    vec3 I = points.get3(kIx, i), eye = points.position(i) - I, along = normalizeOr(I, I), P, N;
+    float pdf = 1, ignored = 0;
+    const EmitterPoints found{{&P.x, &P.y, &P.z}, {&N.x, &N.y, &N.z}, &pdf, &ignored};
+    for (int layer = 0;; ++layer) {
+      services->meetWholeEmitter(light, layer, 1, {&eye.x, &eye.y, &eye.z}, {&along.x, &along.y, &along.z}, found);
+      if (!(pdf > 0)) break;
+      if (!(length(P - eye) > length(I) * kBeyondNear)) continue;
+      front.push_back(front[k]);
+      add(seen, eye, I, P, N);
+    }
+  }
+}
+
+}  // namespace
+
 void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec3>& radiance,
                                       const ShadeContext& context) const {
   radiance.clear();
@@ -39,23 +73,22 @@ void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec
   if (!light || !light->can(TM_LIGHT_AREA) || !light->visible || !isMeant(*light, context)) return;
   LightProbe seen;
   std::vector<size_t> front;
+  const bool allRound = shinesAllRound(*light);
   for (int i = 0; i < points.count(); ++i) {
     const vec3 P = points.position(i), I = points.get3(kIx, i), outside = points.get3(kNgx, i),
-               N = shinesAllRound(*light->bound->shader) && dot(I, outside) > 0 ? -outside : outside;
+               N = allRound && dot(I, outside) > 0 ? -outside : outside;
     if (dot(I, N) >= 0) continue;
     front.push_back(static_cast<size_t>(i));
-    seen.P.push_back(P - I);
-    seen.N.push_back(normalizeOr(I, I));
-    seen.Pl.push_back(P);
-    seen.Nl.push_back(normalizeOr(N, N));
+    add(seen, P - I, I, P, N);
   }
+  if (allRound) addFarSides(points, index, impl_->services, front, seen);
   radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
   if (!front.empty()) probe(index, seen);
   if (!seen.finite)
     impl_->log.report(Severity::Warning, "light-not-finite", light->bound->where,
                       fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
                                   light->bound->user, light->bound->shader->name));
-  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
+  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] += seen.Cl[k];
 }
 
 }  // namespace tomales

@@ -66,7 +66,9 @@ LightSample sampleOf(Batch& batch, const BoundLight& light, const TmGrid& g, Sha
                   .rays = rays,
                   .question = question,
                   .far = g.L,
-                  .params = g.params};
+                  .params = g.params,
+                  .Pl = g.Pl,
+                  .Nl = g.Nl};
   if (const int k = light.bound->output(TM_ROLE_NONDIFFUSE); k >= 0) out.nondiffuse = g.params[k].c[0];
   if (const int k = light.bound->output(TM_ROLE_NONSPECULAR); k >= 0) out.nonspecular = g.params[k].c[0];
   normalizeAll(g.count, view(g.L), out.L);

@@ -140,6 +140,8 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area && !sampleEmitter(batch, light, g, points)) return;
     if (sky) sampleSky(batch, light, g, points);
     if (!runWithExtent(batch, light, g)) return;
+    const bool allRound = area && shinesAllRound(light);
+    if (isMean(*light.bound->shader) && !allRound) meanToRadiance(g, batch.scene.services, light);
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
       for (int i = 0; i < g.count; ++i) {
@@ -151,7 +153,6 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     LightSample sample = sampleOf(batch, light, g, {light.can(TM_LIGHT_SOLAR), s, n}, s);
     sample.pdf = points.meetPdf;
     sample.tally = tally;
-    const bool allRound = area && shinesAllRound(*light.bound->shader);
     if (allRound) sample.rays.through = light.index;
     if (light.shadows && batch.scene.services) {
       if (area && !allRound) sample.toward = beforeEmitter(batch, g, batch.scene.services->emitterReach(light.index));
@@ -166,7 +167,7 @@ template <class Body>
 void Lights::forEachWithExtent(Batch& batch, const Body& body) const {
   for (const int index : alone(batch))
     if (const BoundLight& light = batch.scene.light(index);
-        canBeMet(light) && !light.nonspecular && applies(light, batch) && (!group_ || light.group == *group_))
+        hasExtent(light) && !light.nonspecular && applies(light, batch) && (!group_ || light.group == *group_))
       body(light);
 }
 
@@ -175,7 +176,7 @@ void Lights::forEachSetWithExtent(Batch& batch, const Body& body) const {
   const LightSets* sets = setsOf(batch);
   for (size_t k = 0; sets && k < sets->sets.size(); ++k)
     if (const BoundLight& first = *sets->sets[k].set->lights[0];
-        canBeMet(first) && !first.nonspecular && applies(first, batch))
+        hasExtent(first) && !first.nonspecular && applies(first, batch))
       body(sets->sets[k]);
 }
 
@@ -189,7 +190,9 @@ int Lights::mostSamples(Batch& batch) const {
 
 void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) {
-    if (shines(light, batch)) alongOne(batch, light, lobe, Cl);
+    if (!shines(light, batch)) return;
+    int layer = 0;
+    while (alongOne(batch, light, lobe, layer, Cl) && shinesAllRound(light)) ++layer;
   });
   forEachSetWithExtent(batch, [&](const LightsOfSet& some) { alongDrawn(batch, some, lobe, Cl); });
   ++lobes_;
@@ -213,17 +216,18 @@ void Lights::addSkies(Batch& batch, TmConstVec3 direction, const uint8_t* leaves
   }
 }
 
-void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl) {
+bool Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, int layer, TmVec3 Cl) {
   TmGrid g = lightGrid(batch, light);
   g.sample = lobe.sample;
   g.samples = lobe.samples;
   const EmitterPoints points = emitterPoints(batch, light, g);
-  if (!meetLight(batch, light, g, lobe, points)) return;
+  if (!meetLight(batch, light, g, lobe, layer, points)) return false;
   uint8_t* met = batch.arena.bytes(g.count);
   for (int i = 0; i < g.count; ++i) met[i] = g.active[i] && lobe.pdf[i] > 0 && points.pdf[i] > 0;
-  if (std::none_of(met, met + g.count, [](uint8_t m) { return m != 0; })) return;
+  if (std::none_of(met, met + g.count, [](uint8_t m) { return m != 0; })) return false;
   g.active = met;
-  if (!runWithExtent(batch, light, g)) return;
+  if (!runWithExtent(batch, light, g)) return false;
+  if (isMean(*light.bound->shader)) meanToRadiance(g, batch.scene.services, light);
   const auto own = static_cast<float>(samplesOf(light, batch)), drawn = static_cast<float>(lobe.samples);
   for (int i = 0; i < g.count; ++i) {
     if (!met[i]) continue;
@@ -231,11 +235,14 @@ void Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
     points.pdf[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
   }
   const float reach = light.can(TM_LIGHT_AREA) ? batch.scene.services->emitterReach(light.index) : 0;
-  addMet(batch, light, g, reach == 0 ? g.L : beforeEmitter(batch, g, reach), points.pdf, lobe, Cl);
+  const bool before = reach != 0 && !shinesAllRound(light);
+  addMet(batch, light, g, before ? beforeEmitter(batch, g, reach) : g.L, points.pdf, lobe, layer, Cl);
+  return true;
 }
 
 void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
-                    const LobeDirections& lobe, TmVec3 Cl) {
+                    const LobeDirections& lobe, int layer, TmVec3 Cl) {
+  constexpr int kMostLobes = 1 << 20;
   radianceToSample(g, pdf);
   // The light's own samples have question numbers below the limit of their number.
   LightSample sample{&light,
@@ -244,7 +251,8 @@ void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVe
                      toward,
                      {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples},
                      nullptr,
-                     kMostLightSamples + lobes_};
+                     kMostLightSamples + lobes_ + layer * kMostLobes};
+  if (shinesAllRound(light)) sample.rays.through = light.index;
   if (light.shadows && batch.scene.services) {
     sample.pending = batch.arena.bytes(g.count);
     std::copy_n(g.active, g.count, sample.pending);

@@ -60,7 +60,8 @@ struct LightSample {
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
-  bool drawn = false;  ///< Each point has drawn a light of its own; Cl is 0 at points that have drawn none.
+  TmConstVec3 Pl{}, Nl{};  ///< The points on a light with geometry, as its shader saw them.
+  bool drawn = false;      ///< Each point has drawn a light of its own; where it has none, Cl is 0.
 };
 
 class Lights {
@@ -101,11 +102,10 @@ class Lights {
   void transmit(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
-  void alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, TmVec3 Cl);
-  /// Adds the light that arrives along a lobe's directions from where they have met lights. `pdf`: weighted density of
-  /// the samples.
+  bool alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, int layer, TmVec3 Cl);
+  /// Adds what lights send along a lobe's directions to where they have been met. `pdf`: of the samples, weighted.
   void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
-              const LobeDirections& lobe, TmVec3 Cl);
+              const LobeDirections& lobe, int layer, TmVec3 Cl);
   // drawn_lights.cpp
   const LightSets* setsOf(const Batch& batch) const;  ///< Null if all lights run.
   const LightCuts& cutsOf(Batch& batch, const LightsOfSet& some);

@@ -221,6 +221,8 @@ int32_t ask(void* host, const TmGrid* g, int32_t whom, int32_t light, const char
       if (!sample || !sample->params) return 0;
       TmGrid lit = *g;
       lit.params = sample->params;
+      lit.Pl = sample->Pl;
+      lit.Nl = sample->Nl;
       return answerShaderParameter(batch, sample->light->bound.get(), lit, name, type, out, true);
     }
     case TM_OF_ATTRIBUTES:

@@ -83,6 +83,44 @@ for name, turn in (("ball", ""), ("ball_inside_out", "ReverseOrientation ")):
     shares = [ball[x, y][0] / (2 * 1.5 / (at[x] ** 2 + at[y] ** 2 + 1.5 ** 2) ** 1.5) for x in range(SIZE) for y in range(SIZE)]
     mean, off = sum(shares) / len(shares), max(abs(share - 1) for share in shares)
     t.expect(abs(mean - 1) < 0.005 and off < 0.02, f"  {name}: all of a sphere shines, and hides none of it ({mean:.4f} of it, off by {off:.3f})")
+# A cone of more than a right angle reaches behind the lamp, whether the shader or the scene says so; and so does one
+# that does not stand on the lamp.
+t.write("whole.sl", "light whole() { illuminate(P, N, PI) { Cl = 2 / (L . L); } }\n")
+t.write("wide.sl", "light wide(float angle = PI / 2) { illuminate(P, normalize(N), angle) { Cl = 2 / (L . L); } }\n")
+t.write("turned.sl", "light turned() { illuminate(P, -N, PI / 2) { Cl = 2 / (L . L); } }\n")
+expect("whole", render("whole", lamp("whole", points=UP)), lambda px, py, square: 2 / square, "a cone of PI is everything")
+expect("wide", render("wide", lamp("wide", '"angle" [3.2] "float __samples" [64]', points=UP)), lambda px, py, square: 2 / square, "also from the scene")
+expect("narrow", render("narrow", lamp("wide")), lambda px, py, square: 2 / square, "less shines from the front")
+expect("turned", render("turned", lamp("turned", points=UP)), lambda px, py, square: 2 / square, "another axis counts")
+# What a light says of its sample is that of the point on the lamp.
+t.write("placed.sl", 'light placed(float across = xcomp(transform("world", P))) { illuminate(P) { Cl = 1; } }\n')
+t.write("hears.sl", 'surface hears() { illuminance(P, N, PI / 2) { float x = 7; lightsource("across", x); Ci += x * x * Cl; } Oi = 1; }\n')
+SCENE, matte = SCENE.replace('"matte" "Kd" [1] "Ka" [0]', '"hears"'), SCENE
+heard = render("hears", lamp("placed", '"float __samples" [256]'))
+t.expect(all(abs(p[0] - 1 / 3) < 0.02 for p in heard.values()), f"  defaults of a lamp are those of its points: the mean of x^2 from -1 to 1 ({heard[4, 4][0]:.4f})")
+# A narrow highlight, and a mirror, see both halves of a ball whose light goes all round: the mean of what arrives.
+SCENE = matte.replace('"matte" "Kd" [1] "Ka" [0]', '"glossy"')
+t.write("glossy.sl", "surface glossy() { Ci = specular(normalize(N), -normalize(I), .02); Oi = 1; }\n")
+t.write("each.sl", "surface each() { normal n = normalize(N); vector V = -normalize(I); illuminance(P, n, PI / 2) Ci += Cl * specularbrdf(normalize(L), n, V, .02); Oi = 1; }\n")
+shiny = render("glossy", ball_lamp % "")
+SCENE = matte.replace('"matte" "Kd" [1] "Ka" [0]', '"each"')
+plain = render("each", (ball_lamp % "").replace("[256]", "[4096]"))
+centre = [(x, y) for x in range(2, 6) for y in range(2, 6)]
+sums = [sum(p[k][0] for k in centre) for p in (shiny, plain)]
+t.expect(sums[1] > 0 and abs(sums[0] / sums[1] - 1) < 0.03, f"  specular() finds all of the lamp's light ({sums})")
+SCENE = matte.replace('"matte" "Kd" [1] "Ka" [0]', '"glossy"')
+few = render("few", (ball_lamp % "").replace("[256]", "[4]"))
+off = (sum((few[k][0] - plain[k][0]) ** 2 for k in centre) / len(centre)) ** 0.5 / (sums[1] / len(centre))
+t.expect(off < 0.15, f"  without noise, also with few samples (off by {off:.3f})")
+SCENE = matte
+# The eye and rays see through such a ball: 4 pi / (A cosine d^2), over the solid angle. The mean of 1 / d^2 is ln(3.5 / 2.5) / (2 D r).
+t.write("seen.rib", """Format 32 32 1 PixelFilter "box" 1 1 PixelSamples 8 8 ShadingRate .1 Projection "perspective" "fov" [24] Translate 0 0 3
+WorldBegin AreaLightSource "even" 1 "float __visible" [1] Surface "constant" Color [0 0 0] Sphere .5 -.5 .5 360 WorldEnd""")
+t.expect_run("a ball of light", ["seen.rib", "-o", "seen.exr"], 0)
+edge = math.tan(math.radians(12))
+place = lambda k: edge * (2 * (k + .5) / 32 - 1)  # noqa: E731
+seen = sum(c[0] * (edge / 16) ** 2 / (1 + place(x) ** 2 + place(y) ** 2) ** 1.5 for (x, y), c in pixels(t.folder / "seen.exr").items())
+t.expect(abs(seen / (2 * math.pi * math.log(3.5 / 2.5) / 3) - 1) < 0.06, f"  is seen with both its halves ({seen:.3f})")
 two = render("two", (ball_lamp % "") + ''' AttributeBegin Surface "constant" Attribute "visibility" "int camera" [0]
  Patch "bilinear" "P" [-9 9 -1.5 9 9 -1.5 -9 -9 -1.5 9 -9 -1.5] AttributeEnd''')
 ways = [(2 * math.pi * (j + .5) / 64, (i + .5) / 64) for i in range(64) for j in range(64)]

@@ -155,6 +155,67 @@ TEST(Emitters, WhatDirectionsMeetAddsUpToTheWholeLight) {
   EXPECT_NEAR(sum, 1, 0.01);
 }
 
+/// The density of all points in which a direction passes the light.
+double densityAlong(const Emitters& emitters, const vec3& eye, const vec3& d) {
+  double sum = 0;
+  float before = 0;
+  for (int layer = 0;; ++layer) {
+    Seen met;
+    emitters.meetWhole(0, layer, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
+    if (!(met.pdf > 0)) return sum;
+    sum += double{met.pdf};
+    EXPECT_GE(dot(met.P - eye, d), before) << "layers are in order";
+    before = dot(met.P - eye, d);
+  }
+}
+
+TEST(Emitters, WhatDirectionsMeetOfAllSidesAddsUpToTheWholeLight) {
+  World band, square, round;
+  trapezia(band, 12);
+  square.attributes.areaLight = square.addAreaLight();
+  square.add(parallelogram({-1, -1, 4}, {0.7f, 2, 0}, {2, 0, 0}));
+  square.build();
+  round.attributes.areaLight = round.addAreaLight();
+  Problems problems;
+  round.add(makeSphere(0.7f, -0.7f, 0.7f, 360, {}, problems));
+  round.add(makeDisk(2, 0.6f, 360, {}, problems));
+  round.build();
+  for (World* world : {&band, &square, &round}) {
+    const Emitters& emitters = world->rays->emitters();
+    for (const vec3& eye : {vec3(0.1f, -0.05f, 0.3f), vec3(0.2f, 0.1f, 3), vec3(-1.5f, 1.2f, 1.5f)}) {
+      double sum = 0;
+      constexpr uint32_t kDirections = 1 << 16;
+      for (uint32_t i = 0; i < kDirections; ++i) {
+        const vec2 xi = sobol2(i, 2);
+        const float z = 1 - 2 * xi.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+        sum += 4 * double{kPi} / kDirections *
+               densityAlong(emitters, eye, {r * std::cos(2 * kPi * xi.y), r * std::sin(2 * kPi * xi.y), z});
+      }
+      EXPECT_NEAR(sum, 1, 0.03) << eye.z;
+    }
+  }
+}
+
+TEST(Emitters, PointsAllOverALightKnowTheDensityOfWhatDirectionsMeet) {
+  World world;
+  const Emitters& emitters = trapezia(world, 12).rays->emitters();
+  const vec3 eye(0.1f, -0.05f, 1.3f);
+  int found = 0;
+  for (uint32_t i = 0; i < 500; ++i) {
+    const vec2 xi = sobol2(i, 1);
+    Seen sampled, met;
+    ASSERT_TRUE(emitters.sampleWhole(0, 1, {&eye.x, &eye.y, &eye.z}, &xi.x, &xi.y, sampled.out()));
+    const vec3 d = glm::normalize(sampled.P - eye);
+    for (int layer = 0; layer < 3; ++layer) {
+      emitters.meetWhole(0, layer, 1, {&eye.x, &eye.y, &eye.z}, {&d.x, &d.y, &d.z}, met.out());
+      if (!(met.pdf > 0) || glm::length(met.P - sampled.P) > 1e-4f) continue;
+      ++found;
+      EXPECT_NEAR(met.pdf / sampled.meetPdf, 1, 1e-3f);
+    }
+  }
+  EXPECT_GT(found, 490);
+}
+
 TEST(Emitters, OfMeshesOfThousandsOfPolygonsNoneAreMet) {
   World world;
   const Emitters& emitters = trapezia(world, 300).rays->emitters();
