@@ -30,6 +30,7 @@ struct LightProbe {
 /// Consecutive pixels of one row after filtering and exposure, for the imager. Arrays are padded.
 struct ShadedPixels {
   float x = 0, y = 0;  ///< The raster position of the first pixel's centre.
+  int count = 0;
   ShadedPoints colors;
   AlignedVector<float> alpha;
 };

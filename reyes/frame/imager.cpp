@@ -18,6 +18,7 @@ ShadedPixels rowOf(const Image& image, const Channels& channels, int y) {
   row.y = static_cast<float>(image.originY + y) + 0.5f;
   row.colors.resize(image.width);
   row.alpha.assign(row.colors.Ci[0].size(), 0.0f);
+  row.count = image.width;
   for (int x = 0; x < image.width; ++x) {
     const float* pixel = image.at(x, y);
     const auto i = static_cast<size_t>(x);

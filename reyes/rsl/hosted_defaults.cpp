@@ -10,12 +10,14 @@
 namespace tomales::compiler {
 namespace {
 
-/// Tells whether the code gives the same value for all points of all scenes.
+bool isControl(Op op) { return op == Op::If || op == Op::Loop || op == Op::Scope || op == Op::Leave; }
+
+/// Tells whether the code gives the same for all points of all scenes.
 bool isFixed(const Code& code) {
   bool fixed = true;
   forEach(code.body, [&](const Instruction& i) {
     const bool step = i.op == Op::StepU || i.op == Op::StepV;
-    fixed &= (info(i.op).pure() && !step) || i.op == Op::Copy || i.op == Op::SetElement || i.op == Op::If;
+    fixed &= (info(i.op).pure() && !step) || i.op == Op::Copy || i.op == Op::SetElement || isControl(i.op);
     forEachRead(i, [&](int32_t r) { fixed &= code.registers[static_cast<size_t>(r)].origin != Origin::Global; });
   });
   return fixed;

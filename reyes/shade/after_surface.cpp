@@ -73,7 +73,7 @@ bool ShadingSystem::hasImager() const { return impl_->imager != nullptr; }
 
 void ShadingSystem::image(ShadedPixels& pixels) const {
   if (!hasImager()) return;
-  const ShaderTimer timer(impl_->stats, *impl_->imager, static_cast<int>(pixels.alpha.size()));
+  const ShaderTimer timer(impl_->stats, *impl_->imager, pixels.count);
   const ShadeContext context;
   const ShadedPixels before = pixels;
   ArenaLease arena;

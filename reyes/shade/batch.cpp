@@ -218,7 +218,7 @@ void Batch::setLit(const LightProbe& probe, const BoundShader& shader) {
 }
 
 void Batch::setPixels(ShadedPixels& p, const BoundShader& shader) {
-  const int n = static_cast<int>(p.alpha.size());
+  const int n = p.count;
   setCommon(n, shader);
   setVariables();
   const TmConstVec3 zero = constant(vec3(0.0f));

@@ -25,34 +25,49 @@ int32_t answerNumbers(Batch& batch, const std::vector<float>& numbers, int32_t* 
   return 1;
 }
 
+/// Returns component c of element e at point i.
+float numberAt(const TmValue& v, int width, int e, int c, int i) {
+  return width == 3 ? v.c[c][e * 3 + i * v.step] : v.c[0][e * width + c + i * v.step];
+}
+
+/// Makes room for an array or matrix at each of `points` points, all numbers of a point in a row.
+float* openEach(Batch& batch, int points, int width, TmValue& value) {
+  value.step = value.length * width;
+  float* const to = batch.arena.floats(points * value.step);
+  for (int c = 0; c < 3; ++c) value.c[c] = c < (width == 3 ? 3 : 1) ? to + c : nullptr;
+  return to;
+}
+
+/// Lays an array or matrix that varies, of which each number is a row of `points`, out point by point.
+void interleave(Batch& batch, int points, int width, TmValue& value) {
+  const float* const from = value.c[0];
+  float* const to = openEach(batch, points, width, value);
+  for (int k = 0; k < value.step; ++k)
+    for (int i = 0; i < points; ++i) to[i * value.step + k] = from[static_cast<ptrdiff_t>(k) * points + i];
+}
+
 /// Answers with what a shader of RSL has computed as a default.
-int32_t answerComputed(Batch& batch, const TmParamDecl& decl, const RslValue& value, int32_t* type, TmValue* out) {
+int32_t answerComputed(Batch& batch, const TmParamDecl& decl, const RslValue& value, const TmGrid& g, int32_t* type,
+                       TmValue* out) {
   const auto own = static_cast<TmType>(TM_TYPE_OF(decl.type));
   std::string texts;
   for (const std::string& text : value.texts) texts.append(text).push_back('\0');
   batch.answer(value.floats, texts, own, *type, *out);
   out->length = std::max(1, decl.arrayLength);
   if (!value.varies) return 1;
+  if (out->length > 1 || own == TM_MATRIX) {
+    interleave(batch, g.padded, floatsOf(own), *out);
+    return 1;
+  }
   const auto width = static_cast<size_t>(floatsOf(own));
   for (size_t k = 1; k < width; ++k) out->c[k] = out->c[0] + k * (value.floats.size() / width);
   out->step = 1;
   return 1;
 }
 
-/// Replaces a varying array or matrix by that of the first active point.
-void takeFirst(Batch& batch, const TmGrid& g, int width, TmValue& value) {
-  int first = 0;
-  while (first + 1 < g.count && !g.active[first]) ++first;
-  const int numbers = value.length * width, components = width == 3 ? 3 : 1;
-  float* const to = batch.arena.floats(numbers);
-  for (int k = 0; k < numbers; ++k) to[k] = value.c[0][static_cast<ptrdiff_t>(k) * g.padded + first];
-  for (int k = 0; k < components; ++k) value.c[k] = to + k;
-  value.step = 0;
-}
-
-/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has no value before the
-/// shader has ended. Its initial value, a further parameter of that name in shaders of RSL, is an answer if the shader
-/// never assigns the output.
+/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has none unless the
+/// shader has ended. What it begins with, a further parameter of that name in shaders of RSL, is an answer if the
+/// shader never assigns it.
 int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmGrid& g, std::string_view name,
                               int32_t* type, TmValue* out, bool ended = false) {
   if (!shader) return 0;
@@ -69,11 +84,11 @@ int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmG
     if ((decl.type & kBeginsOutput) != 0) return 0;
     if (!isOutput(decl) && rslComputesDefault(*shader->shader, i)) {
       const std::optional<RslValue> value = batch.computed(*shader, i, g);
-      return value ? answerComputed(batch, decl, *value, type, out) : 0;
+      return value ? answerComputed(batch, decl, *value, g, type, out) : 0;
     }
     *type = TM_TYPE_OF(decl.type);
     *out = values[i];
-    if (out->step != 0 && (out->length > 1 || *type == TM_MATRIX)) takeFirst(batch, g, floatsOf(*type), *out);
+    if (out->step != 0 && (out->length > 1 || *type == TM_MATRIX)) interleave(batch, g.padded, floatsOf(*type), *out);
     return 1;
   }
   return 0;
@@ -175,7 +190,7 @@ int32_t answerRenderer(Batch& batch, std::string_view name, int32_t* type, TmVal
 }
 
 /// Finds a parameter of the incident or opposite volume. Which volume that is depends on the side that is seen, point
-/// by point; strings and arrays are those of the first point.
+/// by point; strings, and values of which one volume has another type, are those of the first point.
 int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};
@@ -188,13 +203,13 @@ int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_v
   if (!has[chosen]) return 0;
   *type = types[chosen];
   *out = side[chosen];
-  if (!has[!chosen] || types[0] != types[1] || !side[0].c[0] || side[0].length != 1 || *type == TM_MATRIX) return 1;
-  for (int k = 0; k < 3 && side[0].c[k]; ++k) {
-    float* values = batch.arena.floats(g->count);
-    for (int i = 0; i < g->count; ++i) values[i] = side[inside(i)].c[k][i * side[inside(i)].step];
-    out->c[k] = values;
-  }
-  out->step = 1;
+  const bool several = has[!chosen] && types[0] == types[1] && side[0].c[0] && side[0].length == side[1].length;
+  if (!several) return 1;
+  const int width = floatsOf(*type);
+  float* const to = openEach(batch, g->count, width, *out);
+  for (int i = 0; i < g->count; ++i)
+    for (int k = 0; k < out->step; ++k)
+      to[i * out->step + k] = numberAt(side[inside(i)], width, k / width, k % width, i);
   return 1;
 }
 

@@ -114,6 +114,24 @@ struct Gathered {
   }
 };
 
+bool asksForRays(const TmChannel* outputs, int32_t outputCount) {
+  return std::any_of(outputs, outputs + outputCount, [](const TmChannel& o) {
+    const std::string_view name = o.name;
+    return name == "ray:origin" || name == "ray:direction";
+  });
+}
+
+/// Answers for rays beyond the limit of their depth, of which nobody asks where they go.
+int32_t gatherNothing(Batch& batch, const Primary& primary, const TmGrid* all, uint8_t* hit, const TmChannel* outputs,
+                      int32_t outputCount) {
+  forActive(all, [&](int i) { hit[i] = 0; });
+  float* const far = batch.arena.floats(all->count);
+  std::fill_n(far, all->count, kRiInfinity);
+  setRayOutputs(primary, outputs, outputCount,
+                {{"ray:length", {far, far, far}}, {"effectivedistance", {far, far, far}}});
+  return 1;
+}
+
 int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConstVec3 P, TmConstVec3 axis, int32_t ray,
                uint8_t* hit, const TmChannel* outputs, int32_t outputCount) {
   Batch& batch = batchOf(host);
@@ -123,9 +141,11 @@ int32_t gather(void* host, const TmGrid* all, const TmRayOptions* given, TmConst
   const Batch::Scratch scratch(batch);
   if (options.environment) return gatherEnvironment(batch, all, P, options, ray, hit, outputs, outputCount);
   if (ray < 0 || ray >= options.samples || !traces(batch)) return 0;
+  RayQuery query = rayQuery(options);
+  if (!asksForRays(outputs, outputCount) && !batch.scene.services->tracesFrom(*batch.points, query, batch.context))
+    return gatherNothing(batch, primary, all, hit, outputs, outputCount);
   Cone cone(batch, g, options);
   cone.aim(P, axis, ray);
-  RayQuery query = rayQuery(options);
   setFootprints(batch, g, axis, options, query);
   query.number = ray;
   Gathered gathered(batch, g->count, {outputs, static_cast<size_t>(outputCount)});

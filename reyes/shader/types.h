@@ -125,8 +125,9 @@ typedef struct TmParamDecl {
 } TmParamDecl;
 
 /* One bound parameter: component k of point i is c[k][i * step]. step 0: uniform; 1: varying (a primitive
- * variable of the same name overrides the parameter). Arrays are uniform: element e of component k is c[k][e *
- * components], and matrices are 16 floats of c[0] in RenderMan's order (points are rows, the translation comes last).
+ * variable of the same name overrides the parameter); messages may have other steps. Element e of component k of an
+ * array is c[k][e * components + i * step]; arrays of parameters are uniform. Matrices are 16 floats of c[0] in
+ * RenderMan's order (points are rows, the translation comes last).
  */
 typedef struct TmValue {
   const float* c[3];

@@ -38,6 +38,16 @@ t.write("chain.sl", 'float b() { float x = -3; displacement("b", x); return x; }
 t.write("last.sl", 'volume last() { float x = -1; float r = surface("c", x); Ci = color(comp(Ci, 0), x / 8, r); Oi = 1; }\n')
 expect("chain", shown("chain", 'Displacement "asked" Surface "chain" Atmosphere "last"'), lambda s: (0.75, 0.75, 1), "a chain of defaults")
 
+# Arrays and matrices that vary are told point by point.
+t.write("rows.sl", """surface rows(float l[2] = {0, 0}; float q[2] = {2, 3 * s}; matrix m = translate(1, vector(s, 0, 0)); color k[2] = {0, color(s, 1, t)};) { Ci = l[0] + q[0] + comp(m, 0, 0) + k[0]; Oi = 1; }
+volume hears(float which = 0;) { float l[2] = -1, q[2] = -1; matrix m = 0; color k[2] = -1;
+  float r = surface("l", l) + surface("q", q) + surface("m", m) + surface("k", k);
+  Ci = color(which == 0 ? l[0] : which == 1 ? q[1] / 3 : which == 2 ? comp(m, 3, 0) : comp(k[1], 0), l[1] / 4, r / 4); Oi = 1; }
+""")
+for which in range(4):
+    rows = shown(f"rows{which}", f'Surface "rows" Atmosphere "hears" "which" [{which}]', '"varying float[2] l" [0 4 1 4 0 4 1 4]')
+    expect(f"rows{which}", rows, lambda s: (s, 1, 1), "what differs from point to point does so for others")
+
 # The parameters of the surface have defaults of every kind that it computes when it runs.
 t.write("told.sl", """surface told(float a = 2; float b = 3 * a; vector w = vector "world" (1, 0, 0); color c = color(s, a, 0); string n = concat("x", "y");
     float l[2] = {a, 2 * a}; matrix m = translate(1, vector(a, 0, 0)); output float o = .5; output varying color p = 1; output float kept = 4 * a;) {

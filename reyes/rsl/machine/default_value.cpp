@@ -40,7 +40,7 @@ RslValue valueOf(const Program& program, const TmGrid& grid, int32_t parameter) 
   const Register& reg = run.reg(r);
   for (int32_t e = 0; reg.shape == Shape::Text && e < elementsOf(reg); ++e) out.texts.push_back(run.text(r, e));
   if (reg.shape == Shape::Text) return out;
-  out.varies = run.varies(r) && reg.length == 0 && reg.shape != Shape::Matrix;
+  out.varies = run.varies(r);
   out.floats = numbersIn(run, r, out.varies);
   return out;
 }

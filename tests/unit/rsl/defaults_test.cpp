@@ -21,10 +21,12 @@ class Defaults : public ::testing::Test {
     grid.grid.shader = compiled.shader().host();
   }
   const CompiledText compiled{
-      "surface test(float a = 2; string t = \"x\"; float b = 3 * a; float moved = b + s; color c = color(1, b, 0);"
+      "float power(float n) { float i, x = 1; for (i = 0; i < n; i += 1) { if (i > 2) return x; x *= 2; } return x; }"
+      "surface test(float a = 2; float p = power(5); string t = \"x\"; float b = 3 * a; float moved = b + s; color c = "
+      "color(1, b, 0);"
       " string n = concat(t, \"y\"); float l[2] = {b, 2 * b}; matrix m = scale(1, vector(b, 1, 1));"
       " float elsewhere = xcomp(transform(\"shader\", P)); output float o = 1;) {"
-      " o = b + comp(c, 0) + l[0] + comp(m, 0, 0) + moved + elsewhere; if (n == \"xy\") Ci = c; Oi = a; }"};
+      " o = b + comp(c, 0) + l[0] + comp(m, 0, 0) + moved + elsewhere + p; if (n == \"xy\") Ci = c; Oi = a; }"};
   ServedGrid grid{kPoints};
 };
 
@@ -56,6 +58,8 @@ TEST_F(Defaults, AreFixedIfNeitherPointsNorTheSceneDecide) {
   EXPECT_EQ(fixed("b")->floats, std::vector<float>{6});
   ASSERT_TRUE(fixed("n"));
   EXPECT_EQ(fixed("n")->texts, std::vector<std::string>{"xy"});
+  ASSERT_TRUE(fixed("p")) << "loops and returns of functions do not decide either";
+  EXPECT_EQ(fixed("p")->floats, std::vector<float>{8});
   EXPECT_FALSE(fixed("moved"));
   EXPECT_FALSE(fixed("elsewhere"));
 }

@@ -116,6 +116,7 @@ class Imager : public Stage {
     ShadedPixels p;
     p.x = 10.5f;
     p.y = 3.5f;
+    p.count = 2;
     p.colors.resize(2);
     p.alpha.assign(p.colors.Ci[0].size(), 0.25f);
     for (int c = 0; c < 3; ++c) p.colors.Ci[c][0] = 0.5f;

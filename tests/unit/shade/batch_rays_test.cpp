@@ -63,6 +63,20 @@ TEST_F(BatchRays, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchRays, GatherBeyondTheLimitOfDepthMeetsNothingAndTracesNothing) {
+  services.met = [](const vec3&, const vec3&) { return 3.0f; };
+  services.deep = true;
+  const std::vector<vec3> c = asked(2, [](sl::Surface& s) {
+    Float hits = 0, far = 0, length = 7;
+    gather(
+        "illuminance", s.P, s.N, 0.5f, 4, rays(), {{"ray:length", &length}}, [&] { hits += 1; },
+        [&] { far += step(1e20f, length); });
+    s.Ci = Color(hits, far, 0);
+  });
+  expectColor(c[0], {0, 4, 0});
+  EXPECT_TRUE(services.asked.empty());
+}
+
 TEST_F(BatchRays, GatherHasCategoriesListsAndTheEffectiveDistance) {
   services.met = [](const vec3&, const vec3&) { return 3.0f; };
   const std::vector<vec3> c = asked(2, [](sl::Surface& s) {

@@ -133,6 +133,7 @@ TEST_F(SlKinds, ImagersReadAndWritePixels) {
   ShadedPixels pixels;
   pixels.x = 2.5f;
   pixels.y = 1.5f;
+  pixels.count = 2;
   pixels.colors.resize(2);
   pixels.colors.set(0, vec3(1), vec3(1));
   pixels.colors.set(1, vec3(2), vec3(1));

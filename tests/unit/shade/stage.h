@@ -52,6 +52,7 @@ class FakeServices final : public ShadeServices {
   std::function<float(const vec3& P, const vec3& direction)> met;  ///< Distance
   std::function<vec3(const vec3& direction)> seen;                 ///< Colour
   mutable std::vector<RayQuery> asked;
+  bool deep = false;  ///< Rays are past the limit of their depth.
   std::function<void(float a, float b, vec3& P, vec3& N, float& area)> emitter;
   vec3 E{0.0f}, dominant[3] = {vec3(0, 0, -1), vec3(0, 0, -1), vec3(0, 0, -1)};
   mutable int shadowRays = 0, gathers = 0;
@@ -69,6 +70,7 @@ class FakeServices final : public ShadeServices {
       light.z[i] *= v;
     }
   }
+  bool tracesFrom(const ShadePoints&, const RayQuery&, const ShadeContext&) const override { return !deep; }
   void trace(const ShadePoints& points, const uint8_t* active, TmConstVec3 P, TmConstVec3 d, const RayQuery& query,
              const ShadeContext&, const RayResult& result) const override {
     asked.push_back(query);
