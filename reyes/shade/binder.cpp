@@ -33,9 +33,10 @@ BoundShaderPtr Binder::bind(const ShaderCall* call, const SourceLoc& where, cons
   const mat4 currentFromShader = call ? cameraFromWorld_ * call->worldFromShader.at(open) : mat4(1.0f);
   if (shader) return bindShader(*shader, call, where, user, currentFromShader, log_);
   const std::string light = call && kind == TM_LIGHT ? standardLightFor(*call, area) : "";
-  const std::string consequences[] = {"a magenta checker is rendered", "nothing is displaced",
-                                      fmt::format("\"{}\" stands in for it", light), "the air is clear",
-                                      "the picture stays as it is"};
+  const std::string consequences[] = {
+      "a magenta checker is rendered", "nothing is displaced",
+      light.empty() ? "it casts no light" : fmt::format("\"{}\" stands in for it", light), "the air is clear",
+      "the picture stays as it is"};
   log_.report(Severity::Missing, "shader-missing", where,
               fmt::format("{}: {} shader \"{}\" is unknown{}; {}", user, kindName(kind), name,
                           registry_.hintOfMissing(name, kind, path_, beside), consequences[kind]),

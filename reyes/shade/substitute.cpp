@@ -34,9 +34,18 @@ const char* standardLightFor(const ShaderCall& call, bool area) {
   if (area) return "arealight";
   static constexpr struct {
     const char *part, *light;
-  } kNames[] = {{"ambient", "ambientlight"},     {"occlusion", "ambientlight"}, {"sky", "ambientlight"},
-                {"environment", "ambientlight"}, {"spot", "spotlight"},         {"distant", "distantlight"},
-                {"sun", "distantlight"},         {"point", "pointlight"}};
+  } kNames[] = {{"caustic", ""},
+                {"indirect", ""},
+                {"photon", ""},
+                {"bake", ""},
+                {"ambient", "ambientlight"},
+                {"occlusion", "ambientlight"},
+                {"sky", "ambientlight"},
+                {"environment", "ambientlight"},
+                {"spot", "spotlight"},
+                {"distant", "distantlight"},
+                {"sun", "distantlight"},
+                {"point", "pointlight"}};
   const std::string name = lowerCase(call.name);
   for (const auto& [part, light] : kNames)
     if (name.find(part) != name.npos) return light;

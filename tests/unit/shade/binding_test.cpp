@@ -133,6 +133,7 @@ TEST_F(Binding, AStandardLightWithItsParametersStandsInForOneThatIsMissing) {
   EXPECT_FLOAT_EQ(lit("nosuch", {bright, from, point("to", {0, 0, 1}), number("coneangle", 0.3f)}), 0) << "averted";
   EXPECT_FLOAT_EQ(lit("MySpotLight", {bright, from, to}), 0.5f) << "by its name";
   EXPECT_FLOAT_EQ(lit("softAmbient", {bright}, true), 2) << "by its name";
+  EXPECT_FLOAT_EQ(lit("causticlight", {bright}), 0) << "it brings what other lights have sent";
   EXPECT_EQ(log.worst(), Severity::Missing);
   EXPECT_EQ(log.count("shader-parameter-unknown"), 0) << "what only the missing shader has";
 }
