@@ -225,6 +225,9 @@ void Checker::retarget(Expr& e, const Type& wanted) {
       return;
     case ExprKind::Call: {
       if (e.missing) e.type = wanted;
+      if (e.function && e.type != wanted)
+        for (const Function* f : functionsOf(e.text))
+          if (f->result == wanted && fit(e, *f) == fit(e, *e.function)) return void(e.type = typeOfFunction(e, *f));
       if (!e.builtin || e.type == wanted) return;
       int best = -1;
       const Builtin* chosen = nullptr;

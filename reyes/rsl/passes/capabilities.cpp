@@ -69,10 +69,15 @@ class Analysis {
     return unasked ? TM_INTERPOLATED | TM_INTERPOLATED_UNASKED : TM_INTERPOLATED;
   }
 
+  bool isZero(int32_t r) const {
+    return at(r).origin == Origin::Constant && std::ranges::all_of(at(r).floats, [](float x) { return x == 0; });
+  }
+
   uint32_t ofLight() const {
     bool hasDirection = false, solar = false, sky = false;
     forEach(code_.body, [&](const Instruction& i) {
-      forEachWrite(i, [&](int32_t r) { hasDirection |= is(r, Global::L); });
+      const bool none = i.op == Op::Copy && isZero(i.in[0]);  // `L = 0`, as some ambient lights say
+      forEachWrite(i, [&](int32_t r) { hasDirection |= !none && is(r, Global::L); });
       solar |= i.op == Op::ConeLight;
       sky |= i.op == Op::SkyLight;
     });

@@ -80,6 +80,11 @@ Cases functionCases() {
        "x = f(1) + f(color (1, 2, 3)) * 10;",
        21,
        {"float f(float a) { return 1; } float f(color a) { return 2; }"}},
+      {"overloads by the result",
+       "color a = f(); float b = f(); x = comp(a, 1) + b * 10; x += comp(f(1), 0) * 100;",
+       913,
+       {"float f() { return 1; } color f() { return color (2, 3, 4); }"
+        " color f(color a) { return 7; } float f(float a) { return 9; }"}},
       {"overloads of points and vectors",
        "x = f(P) + f(N) * 10 + f(I) * 100;",
        321,

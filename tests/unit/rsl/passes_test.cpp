@@ -158,6 +158,8 @@ TEST_F(Passes, KindsOfLightsAreFound) {
   EXPECT_EQ(found("Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_AMBIENT));
   EXPECT_EQ(found("illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
   EXPECT_EQ(found("illuminate (point (0, 0, 0), vector (0, 0, 1), 1) Cl = 1;", "light"), 0u);
+  EXPECT_EQ(found("L = 0; Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_AMBIENT)) << "nowhere is no direction";
+  EXPECT_EQ(found("L = vector (0, 0, p); Cl = 1;", "light"), 0u);
   EXPECT_EQ(found("solar (vector (0, 0, 1), 0) Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_SOLAR));
   EXPECT_EQ(found("solar () Cl = 1;", "light"), static_cast<uint32_t>(TM_LIGHT_SOLAR | TM_LIGHT_SKY));
   EXPECT_EQ(found("if (p > 2) illuminate (point (0, 0, 0)) Cl = 1;", "light"), 0u);
