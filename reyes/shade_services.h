@@ -244,8 +244,8 @@ class ShadeServices {
   virtual bool sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
                              const EmitterPoints& out) const = 0;
   /// Takes points all over area light `light`, evenly by area, on the sides that are seen and on others. `out.pdf` is
-  /// such that a mean weighed by 1 / (pi pdf) is the mean over the area. meetPdf is a density over solid angle, as seen
-  /// from `from`, where meetWholeEmitter() finds the point. Returns false if the light has no geometry.
+  /// such that a mean weighted by 1 / (pi pdf) is the mean over the area. meetPdf is a density over solid angle, as
+  /// seen from `from`, where meetWholeEmitter() finds the point. Returns false if the light has no geometry.
   virtual bool sampleWholeEmitter(int, int, TmConstVec3 /*from*/, const float*, const float*,
                                   const EmitterPoints&) const {
     return false;
@@ -255,14 +255,16 @@ class ShadeServices {
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                            const EmitterPoints& out) const = 0;
 
-  /// Does the same for point number `layer`, from the nearest, in which a direction passes the geometry, from any side.
+  /// Does the same for one of the points in which a direction crosses the geometry, from any side. `layer` counts them
+  /// from the nearest.
   virtual void meetWholeEmitter(int, int /*layer*/, int count, TmConstVec3, TmConstVec3,
                                 const EmitterPoints& out) const {
     std::fill_n(out.pdf, count, 0.0f);
   }
 
-  /// Interpolates what a query asks of the hemisphere around N: its mean radiance (E/pi), or in each of the three
-  /// colours the share that is covered. Returns false, and leaves `out` alone, if nothing is known and rays must tell.
+  /// Interpolates what a query asks of the hemisphere around N. That is its mean radiance (E/pi), or the share that is
+  /// covered, repeated in all three colours. Returns false, and leaves `out` alone, if nothing is known and rays must
+  /// tell.
   virtual bool interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                       const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) const;
 

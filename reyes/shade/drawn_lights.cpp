@@ -248,7 +248,7 @@ void Lights::alongDrawn(Batch& batch, const LightsOfSet& some, const LobeDirecti
     openOutputs(batch, *first.bound, params);
     g.params = params.data();
     if (!batch.run(*first.bound, g)) return;
-    // No point meets more lamps than there are, so each run's shadow rays are asked under another light's name.
+    // No point meets more lamps than there are, so the shadow rays of each run can have the name of a different light.
     addMet(batch, *drawn.lights[run], g, beforeEmitters(batch, drawn, at, g), points.pdf, lobe, 0, Cl);
   }
 }

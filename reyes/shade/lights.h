@@ -61,7 +61,7 @@ struct LightSample {
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
   TmConstVec3 Pl{}, Nl{};  ///< The points on a light with geometry, as its shader saw them.
-  bool drawn = false;      ///< Each point has drawn a light of its own; where it has none, Cl is 0.
+  bool drawn = false;      ///< Each point has drawn a light of its own; Cl is 0 at points that have drawn none.
 };
 
 class Lights {
@@ -103,7 +103,8 @@ class Lights {
   void transmitFromAnswers(Batch& batch, const LightSample& sample, const uint8_t* want, TmVec3 passed) const;
   void evaluate(Batch& batch, const BoundLight& light);
   bool alongOne(Batch& batch, const BoundLight& light, const LobeDirections& lobe, int layer, TmVec3 Cl);
-  /// Adds what lights send along a lobe's directions to where they have been met. `pdf`: of the samples, weighted.
+  /// Adds the light that arrives along a lobe's directions from where they have met lights. `pdf`: weighted density of
+  /// the samples.
   void addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVec3 toward, const float* pdf,
               const LobeDirections& lobe, int layer, TmVec3 Cl);
   // drawn_lights.cpp

@@ -65,9 +65,9 @@ int32_t answerComputed(Batch& batch, const TmParamDecl& decl, const RslValue& va
   return 1;
 }
 
-/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has none unless the
-/// shader has ended. What it begins with, a further parameter of that name in shaders of RSL, is an answer if the
-/// shader never assigns it.
+/// Finds a parameter of a shader among the values of one run, the `params` of a grid. An output has no value before the
+/// shader has ended. Its initial value, a further parameter of that name in shaders of RSL, is an answer if the shader
+/// never assigns the output.
 int32_t answerShaderParameter(Batch& batch, const BoundShader* shader, const TmGrid& g, std::string_view name,
                               int32_t* type, TmValue* out, bool ended = false) {
   if (!shader) return 0;
@@ -190,7 +190,7 @@ int32_t answerRenderer(Batch& batch, std::string_view name, int32_t* type, TmVal
 }
 
 /// Finds a parameter of the incident or opposite volume. Which volume that is depends on the side that is seen, point
-/// by point; strings, and values of which one volume has another type, are those of the first point.
+/// by point; strings are those of the first point, and so are values that the two volumes tell in different types.
 int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
   int32_t types[2] = {-1, -1};

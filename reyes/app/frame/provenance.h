@@ -8,10 +8,10 @@
 
 namespace tomales {
 
-/// Names what the frame's pictures will show: a checksum of the scene, of the size and time of the files that its
-/// shaders are made of and name, and of the settings that pictures depend on. Two frames of one checksum have the same
-/// pixels; the crop window is not in it. Empty if procedurals are unopened, files of light are given or shaders compute
-/// names of files, because nobody knows what they will bring.
+/// Returns a checksum of what the frame's pictures will show: of the scene, of the size and time of the files that its
+/// shaders are made of and name, and of the settings that pictures depend on. Two frames with the same checksum have
+/// the same pixels; the crop window is not in it. Returns an empty text if procedurals are unopened, files of light are
+/// given or shaders compute names of files, because their contents are unknown.
 std::string contentsOf(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings);
 
 /// Adds program, scene, frame, settings and, unless it is empty, contents to the headers of the frame's pictures.
@@ -23,8 +23,8 @@ void makeRoomForStatistics(Options& options, const RenderSettings& settings);
 /// Returns a checksum of what a picture of a shot depends on beside settings: its RIB files, the files of edits, and
 /// `irradiance`, the checksum of the cache that it is shaded with.
 std::string sumOfShot(const Shot& shot, uint64_t irradiance, const std::vector<SourceFile>& edits);
-/// Names what gathering at a shot depends on: `sum`, which is that of sumOfShot(), its buckets, shaders, settings and
-/// crop. Empty if files of light are given, or shaders compute names of files: nobody knows the contents.
+/// Returns a checksum of what gathering at a shot depends on: `sum` from sumOfShot(), and its buckets, shaders,
+/// settings and crop. Returns an empty text if files of light are given, or shaders compute names of files.
 std::string contentsOfGather(const Shot& shot, uint64_t buckets, ShaderRegistry& shaders, const std::string& sum,
                              const RenderSettings& settings);
 void describeShot(Options& options, const std::string& sum, const RenderSettings& settings);
