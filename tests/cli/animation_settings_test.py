@@ -1,4 +1,5 @@
-"""Tests that settings of light that --target-error finds on a few frames hold for all frames of a run, and by a file for frames of other runs."""
+"""Tests that settings of light that --target-error finds on a few frames hold for all frames of a run, and for frames of other
+runs that read them from a file."""
 import json
 import pathlib
 import sys
@@ -20,7 +21,7 @@ t.write("one.rib", head + "WorldBegin" + world)
 
 
 def render(*arguments, scene="shot.rib"):
-    """Returns the result, the settings that each frame's header tells, and the frames that have an audit."""
+    """Returns the result, the settings in each frame's header, and the frames that have an audit."""
     return run(scene, "-t", "1", *arguments)
 
 

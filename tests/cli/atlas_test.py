@@ -1,4 +1,5 @@
-"""Tests the files of the irradiance atlas: what is made again and what is kept, and what is said of damaged, foreign, empty and truncated files."""
+"""Tests the files of the irradiance atlas: what is made again and what is kept, and the messages about damaged, foreign, empty
+and truncated files."""
 import json
 import resource
 import shutil
@@ -94,7 +95,8 @@ t.write("foreign.ptc", bricks)
 t.expect_run("a brick map that calls itself a cloud", ["brickmake", "foreign.ptc", "-o", "foreign.bkm"], 2, "another kind")
 t.expect_run("irradiance of what is no photon map", ["irradiance", "byhand_points", "-o", "again"], 2, "no photon map")
 
-# A surface glows by its shader and is no light. The wall of a closed ball sends 1 / (1 - albedo) of what it adds.
+# A surface glows by its shader and is no light. The radiance in a closed ball is 1 / (1 - albedo) times the radiance
+# that its wall adds.
 t.write("glow.sl", "surface glow() { Oi = Os; Ci = Os * (1 + Cs * diffuse(faceforward(normalize(N), I))); }")
 t.write("glow.rib", """Format 16 16 1
 Projection "perspective" "fov" [90]

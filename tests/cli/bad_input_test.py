@@ -65,7 +65,7 @@ t.expect("nothing" not in result.stderr, "is no reason for a warning")
 
 # Methods warn at their limits.
 ROOM = 'Translate %s %s 0\nSurface "matte"\nLightSource "indirectlight" 1 "float samples" [%d]\nLightSource "pointlight" 2 "point from" [1 1 -3]\n' \
-       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # A ball lies in a hollow one.
+       'Sphere 1 -1 1 360\nSphere 9 -9 9 360\n'  # A ball lies in a hollow ball.
 def room(away, samples):
     return (WORLD % (ROOM % (away, away, samples))).replace("WorldBegin", f"Translate {-away} {-away} 0\nWorldBegin")
 for what, away, samples, says in (("far from the origin", 1000000, 256, "float-range"), ("with few rays", 0, 3, "gather-noise")):

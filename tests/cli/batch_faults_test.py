@@ -69,7 +69,7 @@ before = (t.folder / "half/work/0002.dfb").stat().st_mtime_ns
 t.expect_run("half of a file between", ["batch", "half", "-j", "2"], 0, "finished 3 of 3")
 t.expect(same("h") and (t.folder / "half/work/0002.dfb").stat().st_mtime_ns == before, "is not taken for a whole one, and nothing else is made")
 
-# One of two pictures is lost after the tiles that it was made of have been cleared away.
+# One of two pictures is lost after the tiles from which it was joined have been removed.
 t.write("pair.rib", (t.folder / "shot.rib").read_text().replace("WorldBegin", 'Display "p.exr" "openexr" "rgba"\nDisplay "+p_ids.exr" "openexr" "cryptoobject"\nWorldBegin'))
 t.expect_run("two pictures a frame", ["batch", "pair.rib", "-o", "p.#.exr", "--tiles", "2x1", "--plan", "pair", "-j", "2"], 0, "finished 3 of 3")
 pictures = {name: (t.folder / name).read_bytes() for name in left("p.*.exr")}
@@ -112,7 +112,7 @@ t.write("same.rib", head(64, 48) + 'Display "same.exr" "file" "rgba"\n' + frame(
 t.expect_run("a scene that writes one file from every frame", ["batch", "same.rib"], 2, "frames 1 and 2 both write \"same.exr\"")
 t.expect(not left("same.*exr") and not left("same.batch"), "begins nothing")
 
-# Frames share a chain of records, as they would by hand.
+# Frames share a chain of records, as they would if the commands were typed by hand.
 t.expect_run("records in groups of two", ["batch", "shot.rib", "-o", "c.#.exr", "--share-records", "2", "--plan", "chain", "-j", "2"], 0, "finished 3 of 3")
 for f in (1, 2):
     t.run("hide", "shot.rib", "-o", f"c{f}.dfb", "--frames", str(f), "-q")
@@ -122,7 +122,7 @@ for f in (1, 2):
 t.expect(same("c", "d", (1, 2)) and same("c", "one", (3,)), "have the bits of the chain, and of one run where a group ends")
 t.expect_run("records of frames without a picture in OpenEXR", ["batch", "shot.rib", "-o", "c.#.png", "--share-records", "2", "--plan", "png"], 2, "--share-records: frame 1 has")
 
-# Scripts play a cluster that refuses jobs.
+# Scripts act as a cluster that refuses jobs.
 fakes = pathlib.Path(t.temporary.name) / "bin"
 fakes.mkdir()
 

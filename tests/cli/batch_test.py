@@ -53,7 +53,7 @@ t.expect(same("t") and (t.folder / "t.0001.exr").stat().st_mtime_ns == before, "
 t.expect(status("tiles")["finished"] == 4, "status tells so")
 t.expect_run("the log of a frame", ["batch", "log", "tiles", "3"], 0, "0003.hide:", "0003.join:")
 
-# Two more things must go along with the records: where light is bright, and how it bounces on. Mirrors show the latter.
+# Two more things must be kept with the records: where light is bright, and its further bounces. Mirrors show the latter.
 t.write("bounces.rib", HEAD.replace("Format 64 48", "Format 96 72") + """WorldBegin
 LightSource "indirectlight" 1 "samples" [64] "float bounces" [3]
 Attribute "light" "shadows" ["on"]
@@ -148,7 +148,7 @@ t.expect("[trace-memory]" in t.run("round.rib", "--gi", "gather", "--samples", "
 for name in grant:
     del os.environ[name]
 
-# The process that works on a plan is killed, cancelled, or met by another one.
+# The process that works on a plan is killed or cancelled, or another process works on the same plan.
 t.write("slow.rib", head(200, 150) + "".join(frame(i, 300, 0.2) for i in range(1, 5)))
 t.run("slow.rib", "-o", "one.####.exr", "-q")
 

@@ -1,4 +1,5 @@
-"""Tests the message about what further bounces would add: in a closed white sphere each bounce has the same share of the one before."""
+"""Tests the message about the light that further bounces would add: in a closed white sphere each bounce has the same share of
+the one before."""
 import re
 
 from program import Suite
@@ -19,7 +20,7 @@ t = Suite()
 
 
 def told(bounces, albedo, *options):
-    """Returns the per cent that are left by the message, or null if there is none."""
+    """Returns the percentage that is left according to the message, or None if there is no message."""
     t.write("sphere.rib", SPHERE % (bounces, albedo, albedo, albedo))
     said = t.expect_run(f"{bounces} bounces, albedo {albedo}", ["sphere.rib", *options], 0).stderr
     found = re.search(r"after (\d+) bounces ([0-9.]+) % .*gather-bounces", said)

@@ -1,5 +1,5 @@
-"""Tests files that the program keeps for itself: damaged ones must be reported, made anew and never used. (frames_of_textures_test.py tests the
-folder of converted pictures.)"""
+"""Tests files that the program keeps for itself: damaged ones must be reported, made again and never used.
+(frames_of_textures_test.py tests the folder of converted pictures.)"""
 from program import Suite
 
 t = Suite()
@@ -46,7 +46,7 @@ def expect_made_anew(kind, folder, arguments):
 expect_made_anew("maps of an atlas", "maps", ["room.rib", "--gi", "atlas", "--atlas", "maps", "--photons", "5000"])
 expect_made_anew("maps of radiosity", "bricks", ["room.rib", "--gi", "radiosity", "--atlas", "bricks"])
 
-# Files are damaged from which a map has to be made anew.
+# Files are damaged from which a map has to be made again.
 atlas = ["room.rib", "--gi", "atlas", "--atlas", "maps", "--photons", "5000"]
 t.run(*atlas, "-o", "first.exr")
 for folder in ("photons", "irradiance"):
@@ -58,7 +58,7 @@ for folder in ("photons", "irradiance"):
     t.expect_run(f"rotten {folder} of which maps are to be made", atlas + ["-o", "again.exr"], 0, "made anew", f"{folder}/scene0.ptc")
     t.expect(bits("again.exr") == bits("first.exr"), "are made anew too")
 
-# Earlier cameras have baked light.
+# Light was baked for earlier cameras.
 baked = ["room.rib", "--gi", "gather", "--baked", "light", "-o", "baked.exr"]
 t.expect_run("light is baked", baked, 0)
 points = t.folder / "light" / "points" / "scene0.ptc"

@@ -45,7 +45,7 @@ CHROME = 'Attribute "photon" "string shadingmodel" ["chrome"]\nSurface "mirror"\
 
 
 def square(half, z=0):
-    """Returns a square that faces down and up alike."""
+    """Returns a square that faces both down and up."""
     return f'Polygon "P" [{" ".join(f"{x * half} {y * half} {z}" for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))}]\n'
 
 
@@ -71,7 +71,7 @@ def parabolic_mirror(method):
 
 
 def half_sphere(method):
-    """A lamp in the middle of half a sphere that mirrors is there a second time."""
+    """A lamp in the middle of a mirroring half-sphere has its mirror image at the same place, so its light counts twice."""
     share, intensity, height = 0.8, 3, 1
     lamp = f'LightSource "pointlight" "lamp" "intensity" [{intensity}] "from" [0 0 {height}]'
     thing = CHROME.format(share) + f"Translate 0 0 {height}\nSphere 0.7 0 0.7 360\n"
@@ -81,7 +81,8 @@ def half_sphere(method):
 
 
 def ring(method):
-    """All parallel light that meets a ring which mirrors falls to the floor: what enters it above, but not what falls through it, and what it stops outside."""
+    """All parallel light that meets a mirroring ring falls to the floor: light that enters it above and is reflected inside, and
+    light that it blocks outside."""
     radius, height, slope = 0.5, 0.4, 1.5
     cosine = 1 / math.hypot(1, slope)
     apart = height * slope
@@ -93,7 +94,7 @@ def ring(method):
 
 
 def bent(way, normal, eta):
-    """Returns the way of a ray behind a surface of glass, and the share that is reflected. The normal faces the ray."""
+    """Returns the direction of a ray behind a surface of glass, and the share of light that is reflected. The normal faces the ray."""
     cosine = -way[0] * normal[0] - way[1] * normal[1]
     inside = math.sqrt(1 - eta**2 * (1 - cosine**2))
     s, p = (eta * cosine - inside) / (eta * cosine + inside), (cosine - eta * inside) / (cosine + eta * inside)
@@ -113,7 +114,8 @@ def share_inside(distance, half):
 
 
 def ball_on_square(radius, above, half, index):
-    """Returns the share of light straight from above on a ball of glass that comes to a square below it, after up to eight reflections."""
+    """Returns the share of the light falling straight down on a ball of glass that reaches a square below it, after up to eight
+    reflections."""
     steps, found = 4000, 0
 
     def shed(share, place, way):

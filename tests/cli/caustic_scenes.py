@@ -1,5 +1,5 @@
 """Scenes with a caustic, for tests and benchmarks."""
-# The eye looks down on a floor, through things that it does not see.
+# The eye looks down on a floor, through objects that are invisible to it.
 ABOVE = """Display "{name}.exr" "file" "rgb"
 Format 24 24 1
 PixelSamples 2 2

@@ -37,7 +37,7 @@ for name in SCENES:
     truth = [statistics.mean(m) for m in found["reference"]]
     for method in sorted(set(found) - {"reference"}):
         for place, mine, theirs in zip(("left above", "left below", "right above", "right below", "all"), found[method], found["reference"]):
-            # The noise is four standard errors of both means. The seeds of all places tell its size.
+            # The noise is four standard errors of both means. It is estimated from the seeds at all places.
             noise = 4 * max(statistics.stdev(m) for m in (mine, theirs)) * (2 / SEEDS) ** 0.5
             off = statistics.mean(mine) - statistics.mean(theirs)
             t.expect(abs(off) <= noise + BLUR * truth[-1] and truth[-1] > 0.05,

@@ -94,11 +94,11 @@ def within_two_seconds(condition):
 code = broken_off(signal.SIGKILL, 1)
 suite.expect(code == -signal.SIGKILL and 1 <= measured() < 9, f"a chart that is killed keeps what was measured ({code}, {measured()})")
 suite.expect(within_two_seconds(lambda: not left_behind()), "and its renderer ends")
-# The picture would take minutes, and nobody waits for it.
+# The picture would take minutes, so the test does not wait for it.
 suite.write("long.rib", SCENE.replace("24 24", "2048 2048").replace("PixelSamples 2 2", "PixelSamples 16 16"))
 charting = subprocess.Popen([suite.program, "chart", "long.rib", *chart[2:]], cwd=suite.folder, stderr=subprocess.DEVNULL)
 suite.expect(within_two_seconds(lambda: len(left_behind()) == 2), "a chart of a long picture renders in a process of its own")
-time.sleep(0.5)  # The chart is in the midst of it.
+time.sleep(0.5)  # The chart is being made at this moment.
 charting.kill()
 charting.wait()
 ended = within_two_seconds(lambda: not left_behind())
@@ -189,7 +189,7 @@ suite.expect_run("a laboratory without a knob", lab, 2, "knob")
 suite.write("lab/bars.rib", LAB.replace("##lab note", "##lab limit pixel-noise: 9\n##lab note"))
 suite.expect_run("a laboratory whose limit is the first value", lab, 2, "none of the knob's values after the first")
 
-if browser := shutil.which("chromium"):  # If there is a browser, the page is looked at.
+if browser := shutil.which("chromium"):  # If there is a browser, the page is opened in it.
     seen = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", (suite.folder / "report.html").as_uri()],
                           capture_output=True, text=True, timeout=120).stdout
     suite.expect(re.findall(r'aria-label="([^"]*)"', seen) == [f"{d['title']}: 6 points" for d in drawings], "a browser draws all points within the axes")

@@ -1,4 +1,4 @@
-"""Tests what bash completes by the script that the program itself makes, and what --version prints."""
+"""Tests what bash completes with the script that the program itself makes, and what --version prints."""
 import re
 import subprocess
 

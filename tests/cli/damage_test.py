@@ -35,7 +35,8 @@ t.expect_run("for a run with more room", ["lit.rib", "-o", "resume.exr", "--resu
 t.run("hide", "good.rib", "-o", "good.dfb", "-q")
 expect_said(limited(100, "gather", "good.dfb", "-o", "good.icf"), 4, "a disk too full for records", "good.icf", "could not be written")
 
-# Memory is too small, for a frame that needs none for rays and then for one that does. (Sanitizers need more than they are given here.)
+# Memory is too small, for a frame that needs none for rays and then for one that does. (Sanitizers need more memory
+# than the test allows.)
 t.write("two.rib", "FrameBegin 1\n" + GOOD + "FrameEnd\nFrameBegin 2\n" + LIT.replace("Format 24 24 1", "Format 400 400 1") + "FrameEnd\n")
 
 

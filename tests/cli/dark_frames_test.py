@@ -55,7 +55,7 @@ t.expect("light-none" not in t.run("map.rib").stderr, "a map for later frames ne
 said = told("scoped", 'AttributeBegin\nLightSource "distantlight" 1\nAttributeEnd\n' + BALL)
 t.expect("light-off" in said and "light-none" not in said, f"a light that ends with its block: {said}")
 
-# Lights come to nothing, and the message says why.
+# Lights have no effect, and the message says why.
 said = told("zero", 'LightSource "distantlight" 1 "intensity" 0\n' + BALL)
 t.expect("sends no light" in said.get("light-useless", ""), f"intensity 0: {said}")
 said = told("aside", 'LightSource "spotlight" 1 "from" [0 0 -5] "to" [0 0 -9] "intensity" 50\n' + BALL)

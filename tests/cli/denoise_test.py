@@ -1,4 +1,4 @@
-"""Tests tomales denoise: two noisy pictures become one that is nearer to the truth and keeps all else that the first one holds."""
+"""Tests tomales denoise: two noisy pictures become one that is nearer to the truth and keeps everything else in the first one."""
 import json
 import re
 import subprocess

@@ -1,4 +1,5 @@
-"""Tests display drivers: they must get what a file holds. A driver that fails, crashes or is not trusted is reported, and all else goes on."""
+"""Tests display drivers: they must get the same values as a file. A driver that fails, crashes or is not trusted is reported, and
+everything else goes on."""
 import os
 import pathlib
 import re
@@ -15,7 +16,7 @@ t.trust_shaders("drivers")
 (t.folder / "drivers").mkdir()
 (t.folder / "brought").mkdir()
 
-# This driver writes what it is told as text. Its parameters make it fail.
+# This driver writes all that it receives as text. Its parameters make it fail.
 DRIVER = r"""#include <reyes/display_api.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -148,7 +149,7 @@ t.expect_run("a plugin of another kind", [scene("shader.rib", '"o.txt" "shader" 
 (t.folder / "drivers/torn.so").write_bytes(b"no library")
 t.expect_run("a file that is no library", [scene("torn.rib", '"o.txt" "torn" "rgba"')], 4, "torn.so", "cannot be loaded")
 
-# Drivers are trusted as shaders are (trust_test.py).
+# Drivers are trusted by the same rules as shaders (trust_test.py).
 build("theirs", folder="brought")
 untrusted = scene("theirs.rib", '"o.txt" "theirs" "rgba"')
 t.write("theirs.rib", 'Option "searchpath" "string display" ["brought"]\n' + (t.folder / untrusted).read_text())

@@ -1,4 +1,5 @@
-"""A picture of places where few photons come is named with its place (photon-few); one of a lit room beside them is not."""
+"""Tests that a picture of places with few photons is reported with the place (photon-few), and a picture of a lit room beside
+them is not."""
 import re
 
 from program import Suite

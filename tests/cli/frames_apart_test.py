@@ -1,5 +1,5 @@
-"""Tests that unwanted frames are passed over unread (--frames-apart), with the same bits as if they were read. A batch does so if nothing in a frame
-outlives it. Make requests are chosen by their places (--makes)."""
+"""Tests that unwanted frames are skipped without being read (--frames-apart), with the same bits as if they were read. A batch
+does so if nothing in a frame outlives it. Make requests are chosen by their places (--makes)."""
 import json
 
 from moving_ball import frame, head
@@ -30,7 +30,7 @@ for flag in ((), ("--frames-apart",)):
     t.expect_run("and so does shade", ["shade", "s.3.dfb", "--irradiance", "s.icf", "-o", "shot.exr", *flag], 0)
     t.expect(same("shot.exr", "one.3.exr"), "with the same bits")
 
-# Errors in frames that are passed over are not found.
+# Errors in skipped frames are not found.
 broken = FRAMES[0].replace("WorldBegin", 'WorldBegin\nReadArchive "nowhere.rib"\nNonsense 1 2 "WorldBegin" [ \n')
 t.write("broken.rib", HEAD + broken + "FrameBegin 7\nWorldBegin\nSphere 1 -1 1 360\n" + FRAMES[2] + broken)
 said = t.run("broken.rib", "-o", "x.#.exr", "--frames", "3").stderr
@@ -38,7 +38,7 @@ t.expect("nowhere.rib" in said and "Nonsense" in said, "a frame that is not want
 t.expect_run("or is not", ["broken.rib", "-o", "x.#.exr", "--frames", "3", "--frames-apart"], 0)
 t.expect("broken.rib" not in t.run("broken.rib", "-o", "x.#.exr", "--frames", "3", "--frames-apart").stderr and same("x.3.exr", "one.3.exr"), "and nothing is said of it, even where it does not end")
 t.expect_run("a frame that is not there", ["shot.rib", "-o", "x.#.exr", "--frames", "9", "--frames-apart"], 2, "no-frame")
-# A plan passes frames over unless something outlives them.
+# A plan skips frames unless something outlives them.
 for what, text, apart in (("plain frames", HEAD + "".join(FRAMES), True),
                           ("a declaration in a frame", HEAD + FRAMES[0].replace("WorldBegin", 'Declare "shine" "uniform float"\nWorldBegin') + FRAMES[1], False),
                           ("an archive in a frame", HEAD + FRAMES[0].replace("WorldBegin", 'ArchiveBegin "a"\nArchiveEnd\nWorldBegin') + FRAMES[1], False),

@@ -1,5 +1,5 @@
-"""Tests several textured frames in one stream: they have the same bits for any number of threads, and pictures that are rewritten between frames are
-read anew."""
+"""Tests several textured frames in one stream: they have the same bits for any number of threads, and pictures that are rewritten
+between frames are read again."""
 import random
 import re
 import struct
@@ -74,7 +74,7 @@ over.set()
 watcher.join()
 suite.expect(len(seen) == 1, f"converts it once: {seen}")
 
-# One name has two contents.
+# One name stands for two different files.
 png("red.png", 64, lambda x, y: (255, 0, 0))
 png("green.png", 64, lambda x, y: (0, 255, 0))
 make = 'MakeTexture "{}.png" "now.tex" "periodic" "periodic" "box" 1 1'

@@ -1,4 +1,4 @@
-"""Renders the corpus of ugly geometry. The second line of each file tells the exit code and the warnings that are expected."""
+"""Renders the corpus of ugly geometry. The second line of each file has the expected exit code and warnings."""
 import pathlib
 import re
 import sys

@@ -76,7 +76,7 @@ def parse(block, folder):
     t.expect(result.returncode == 0 and ": warning" not in result.stderr, f"{block.place}: its requests are RIB" + result.stderr[:300])
 
 
-prefix = t.folder / "prefix"  # The installation is for readers who write plugins.
+prefix = t.folder / "prefix"  # Only readers who write plugins need the installation.
 subprocess.run(["cmake", "--install", t.program.parent, "--prefix", prefix, "--component", "dev"], check=True, stdout=subprocess.DEVNULL)
 
 only = sys.argv[3:]  # Whoever writes a page may name it, such as docs/light.md.

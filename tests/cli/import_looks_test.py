@@ -1,4 +1,4 @@
-"""Tests what becomes of a model's colours, pictures and texture coordinates by the numbers of the RIB."""
+"""Tests how a model's colours, pictures and texture coordinates are imported, by the numbers in the RIB."""
 import math
 import pathlib
 import re
@@ -15,12 +15,12 @@ t = Suite()
 SQUARE = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
 UV = [(0, 0), (1, 0), (1, 1), (0, 1)]  # v runs up.
 FACES = [(0, 1, 2), (0, 2, 3)]
-DOWN = [(u, 1 - v) for u, v in UV]  # As glTF and RIB have it.
+DOWN = [(u, 1 - v) for u, v in UV]  # glTF and RIB have this order.
 white = png(2, lambda *_: (255, 255, 255))
 
 
 def imported(name, model, code=0, *says):
-    """Imports a model. Returns the text of the RIB, and what was said."""
+    """Imports a model. Returns the text of the RIB, and the messages."""
     t.write(name, model)
     made = t.expect_run(f"{name} comes in", ["import", name, "-o", "out.rib"], code, *says)
     t.expect(says or not made.stderr, f"{name}: without a word {made.stderr}")
@@ -40,7 +40,7 @@ def near(what, seen, expected, tolerance=1e-5):
 
 
 def scene_of(look, **attributes):
-    """Returns a square of a material of glTF. `look` makes it of the scene."""
+    """Returns a square with a material of glTF. `look` makes the material from the scene."""
     scene = Gltf()
     scene.node(mesh=scene.mesh(SQUARE, FACES, NORMAL=[(0, 0, 1)] * 4, material=scene.add("materials", look(scene)), **{"TEXCOORD_0": UV, **attributes}))
     return scene
@@ -103,7 +103,7 @@ near("a metal", color(rib) + numbers(rib, "metallic"), [1, 0.75, 0.25, 1])
 rib = glossy("glass.glb", white, "BLEND", diffuseFactor=[1, 1, 1, 0.5], specularFactor=[0, 0, 0])
 t.expect("Opacity [ 0.5 0.5 0.5 ]" in rib and "texturename" in rib and "opacitymap" in rib, "the diffuse colour's alpha counts")
 
-# Vertices may be told by integers. Each kind of file keeps its numbers in another place.
+# Vertices may be stored as integers. Each kind of file keeps its numbers in another place.
 def with_integers(**rows):
     """Returns the square with attributes of (rows, kind, stride, normalized)."""
     scene = scene_of(lambda s: {"pbrMetallicRoughness": {"metallicFactor": 0}})
@@ -154,7 +154,7 @@ imported("odd.glb", odd.glb(), 0, "left out: KHR_materials_iridescence, EXT_odd;
 odd.document.update(extensionsUsed=["\x1b[2J", "A" * 65] + [f"EXT_{k}" for k in range(20)], extensionsRequired=["a b"])
 imported("odd.glb", odd.glb(), 0, "left out: EXT_0, EXT_1, EXT_2, EXT_3, EXT_4, EXT_5, EXT_6, EXT_7 and 14 more; the file asks not to be read without 1 with odd names [import-extension]")
 
-# Materials of .obj place their pictures. What they do not give is no colour of theirs.
+# Materials of .obj place their pictures. Colours that they do not give are left out.
 t.write("white.png", white)
 
 
@@ -192,7 +192,7 @@ for what, head, rows in (("bytes", "COFF", [f"{r} {g} {b} 255" for r, g, b in BY
     near(f".off with {what}", numbers(imported("colours.off", off(head, rows)), "Cs"), shares)
 t.expect("Cs" not in imported("plain.off", off("OFF", [""] * 4)), ".off without colours")
 
-# What cannot be seen is told of.
+# Invisible materials are reported.
 t.write("paint.mtl", "newmtl a paint\nKd 1 1 1\nd 0\n")
 imported("clear.obj", obj(SQUARE, [(0, 1, 2, 3)], before="mtllib paint.mtl", material="a paint"), 0, 'material "a paint" has the opacity 0', "import-invisible")
 

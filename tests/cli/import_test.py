@@ -99,7 +99,7 @@ t.expect(text.count("ObjectBegin") == 1 and text.count("ObjectInstance") == 2 an
 middle = [strongest(seen[60][x]) for x in range(60, 101)]
 t.expect("r" in middle and "rg" not in middle and "gb" not in middle, "both show the red side to the middle: " + " ".join(middle))
 
-# Assimp tells neither the kind nor the size of the area lights of .fbx. They shine only in front of themselves.
+# Assimp returns neither the kind nor the size of the area lights of .fbx. They shine only in front of themselves.
 for name, height, top in (("above.fbx", 4, "r"), ("below.fbx", -4, "")):
     t.write(name, fbx(positions, quads, normals, area=(0, height, 0)))
     t.expect_run(f"an area light: {name}", ["import", name, "-o", name + ".rib"], 0, "1 lights are taken as small areas")
@@ -196,7 +196,8 @@ t.expect([strongest(glow[y][x]) for x, y in CENTERS] == ["r", "g", "b", "rgb"], 
 
 # Each picture may have texture coordinates of its own.
 def of_two(scene):
-    """Takes the colour by the first set and the cut by the second, so that the square has the left half of the picture alone."""
+    """Looks up the colour by the first set and the opacity by the second, so that the square shows only the left half of the
+    picture."""
     halves = scene.image(png(64, lambda x, y: (255, 255, 255, 255 * (x < 16))))
     return {"alphaMode": "MASK", "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0, 0, 0, 1], "baseColorTexture": {"index": halves}},
             "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": scene.image(quarters), "texCoord": 1}}
@@ -245,7 +246,7 @@ bumps = [[lit_from(f"tilt{a}{b}.glb", sun, tilted(*by)) for b, sun in enumerate(
 t.expect(bumps[0][0] > bumps[1][0] + 40, f"red of a normal map turns to the right: {bumps}")
 t.expect(bumps[2][1] > bumps[2][0] + 20 and bumps[0][0] > bumps[0][1] + 20, f"green turns up, where red lets light from there alone: {bumps}")
 
-# Lights of other formats tell their cones by whole angles. A white square that faces them sends their light back.
+# Lights of other formats store the whole angles of their cones. A white square that faces them sends their light back.
 WHITE_SQUARE = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
 
 
@@ -280,7 +281,7 @@ moving.add("animations", {"channels": [{"sampler": 0, "target": {"node": joint, 
 t.write("moving.glb", moving.glb())
 t.expect_run("animations, bones and other shapes are told of", ["import", "moving.glb", "-o", "moving.rib"], 0, "import-animation", "import-skin", "import-morph")
 
-# Pictures lie beside the model, under the names that people's machines give them.
+# Pictures lie beside the model, but the model has names from other machines.
 (t.folder / "textures").mkdir(exist_ok=True)
 t.write("textures/a picture.png", quarters)
 t.write("wood.png", quarters)

@@ -1,5 +1,5 @@
 """Tests that the renderer knows a light by what its shader declares, never by names. A plugin copy of every built-in light has another name and other
-names of its parameters. It must give the same bits by every way to indirect light and through every command."""
+names of its parameters. It must give the same bits with every method for indirect light and through every command."""
 import json
 import os
 import pathlib
@@ -165,7 +165,7 @@ alike("arealight, invisible", [("arealight", "lamp", {"samples": 4, "visible": 0
 tested = {name for name, _ in alone} | {"arealight", "indirectlight", "filterlight"}
 t.expect(tested == set(declared), f"every built-in light is here: {tested ^ set(declared)}")
 
-# --- Indirect light is as the command line asks, and as the light asks.
+# --- Indirect light follows the command line and the light's own parameters.
 GI = ("indirectlight", "gi", {"samples": 16, "maxerror": 0.7, "errorfunction": '"ward"', "maxdist": 20, "intensity": 1.5, "lightcolor": "1 1 0.5"})
 FILTER = ("filterlight", "more", {"source": '"gi"', "brightness": 0.5, "from_": "0 2 0", "to": "0 0 0", "coneangle": 1})
 
@@ -199,7 +199,7 @@ for name, params in alone:
 alike("a draft", asking(), [*RENDER, "--draft"])
 alike("no indirect light of the scene's own", [KEY], [*RENDER, "--gi", "gather", "--samples", "16"])
 
-# --- The lights go through files.
+# --- The lights are written to files and read back.
 HIDE = ["hide", "{v}.rib", "-o", "{v}.dfb"]
 GATHER = ["gather", "{v}.dfb", "-o", "{v}.icf"]
 SHADE = ["shade", "{v}.dfb", "--irradiance", "{v}.icf", "-o", "{v}.exr"]

@@ -1,4 +1,5 @@
-"""Tests that gather --by-light keeps what each light has bounced, so that shade --edit dims and colours lights with all their bounced light."""
+"""Tests that gather --by-light keeps the bounced light of each light, so that shade --edit dims and colours lights with all their
+bounced light."""
 import pathlib
 import sys
 

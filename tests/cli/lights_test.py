@@ -1,4 +1,5 @@
-"""Tests lights as the renderer knows them: lamps look as their shaders shine, and plugins that bring indirect light are known to do so."""
+"""Tests what the renderer knows about lights: a lamp looks as bright as its shader makes it, and plugins that bring indirect
+light are recognised."""
 import os
 import pathlib
 import subprocess
@@ -82,7 +83,7 @@ for mirrored, place in ((False, "to the camera"), (True, "in a mirror")):
     slanted = seen(f"a slanted beam {place}", '"float beam" [2]', 60, mirrored=mirrored)
     t.expect(near(red(slanted, 8), (1.25, 0, 0)), f"and with the direction {place}: {red(slanted, 8)}")
 
-# --- A request of an indirect light is reported only if it is not followed.
+# --- A request of an indirect light is reported only if the renderer does not follow it.
 ROOM = """Format 16 16 1
 Projection "perspective" "fov" [60]
 Translate 0 0 1.5
@@ -112,7 +113,7 @@ t.run("irradiance", "photons", "-o", "clouds")
 said, points, _ = room('LightSource "indirectlight" "gi" "float samples" [16] "string radiance" ["points"] "string atlas" ["clouds"]')
 t.expect("not supported" not in said, "so are points")
 
-# --- A plugin brings indirect light, which its capability tells.
+# --- A plugin brings indirect light, which its capability declares.
 build("bounced", """namespace {
 void shade(const TmGrid* g) {
   const rsl::Batch b(g);

@@ -1,4 +1,4 @@
-"""A small room with every source of light that an audit tells apart: a lamp with an area, a spot, and the light that surfaces
+"""A small room with every source of light that an audit distinguishes: a lamp with an area, a spot, and the light that surfaces
 reflect."""
 ROOM = """Display "room.exr" "file" "rgba"
 Format 20 16 1

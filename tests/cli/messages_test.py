@@ -1,4 +1,4 @@
-"""Tests what a stranger is told: each cause once, what helps, what a scene needs, what is built in, and which options exist."""
+"""Tests messages for new users: each cause once, what helps, what a scene needs, what is built in, and which options exist."""
 import json
 import re
 
@@ -31,7 +31,7 @@ missing = lines_with(told, "[shader-missing]")
 t.expect(len(missing) == 2 and "is unknown" in missing[0] and missing[0].startswith("many.rib:1:"), "is one message: " + told.stderr)
 t.expect(missing[-1].startswith("tomales: 93 times:") and "many.rib:1, many.rib:2, many.rib:3, many.rib:4, ..." in missing[-1], "with its count and first places at the end: " + missing[-1])
 
-# Parts of one name that are displaced too far by different ways are one message.
+# Parts of one name that are displaced too far by different distances give one message.
 t.write("parts.rib", scene('Attribute "identifier" "name" ["deer"] Attribute "displacementbound" "sphere" [0.01] Displacement "noisybump" "Km" [0.5]\n'
                            + "Sphere .3 -.3 .3 360\nTranslate .5 0 0\n" * 3))
 told = t.expect_run("parts that exceed their bound", ["parts.rib"], 0)
@@ -42,7 +42,7 @@ t.write("frames.rib", "\n".join(f"FrameBegin {n}\n{GOOD}FrameEnd" for n in range
 told = t.expect_run("twenty frames over one picture", ["frames.rib", "--format", "4x4"], 0)
 t.expect(len(lines_with(told, "written over")) == 2 and lines_with(told, "tomales: 19 times:", "written over"), "are one message and its count: " + told.stderr)
 
-# The message names where a missing file was looked for, and what lies near.
+# The message names the folders that were searched for a missing file, and similar files nearby.
 (t.folder / "shaders").mkdir()
 t.write("shaders/rock.sl", "surface rock() { Ci = Cs; Oi = 1; }")
 t.write("near.rib", scene('Surface "rock" Sphere 1 -1 1 360 Surface "Plastik" Sphere 1 -1 1 360 Surface "fog" Sphere 1 -1 1 360 Surface "rock" Sphere 1 -1 1 360'))
@@ -71,7 +71,7 @@ t.write("maps.rib", 'FrameBegin 1\n' + scene("Sphere 1 -1 1 360").replace("x.exr
 told = json.loads(t.expect_run("info of a scene that makes its maps", ["info", "maps.rib", "--json"], 3).stdout)
 t.expect({n["name"]: n["found"] for n in told["needs"] if n["kind"] == "texture"} == {"made.tex": True, "other.tex": False}, f"knows which: {told['needs']}")
 
-# A plugin lies in a folder that nobody has named.
+# A plugin lies in a folder that no option names.
 (t.folder / "compiled").mkdir()
 t.write("compiled/knit.so", "no plugin")
 t.write("knit.rib", scene('Surface "knit" Sphere 1 -1 1 360'))

@@ -15,7 +15,7 @@ subprocess.run([os.environ["CXX"], "-O1", "-std=c++17", "-shared", "-fPIC", "-I"
 
 
 def ball(name, light, scattering, absorption):
-    """Returns what the middle of a ball of radius 1 sends to the eye and what it hides, in red."""
+    """Returns the radiance that the middle of a ball of radius 1 sends to the eye, and its opacity, in red."""
     medium = f'"color scattering" [{scattering} {scattering} {scattering}] "color absorption" [{absorption} {absorption} {absorption}]'
     t.write(name + ".rib", f"""Display "{name}.exr" "file" "rgba"
 Format 32 32 1
@@ -45,7 +45,7 @@ def is_near(value, expected, what, tolerance):
 # This is a furnace: a medium that only scatters hides as much light as it sends.
 sent, hidden = ball("furnace", 'LightSource "environmentlight" 1 "intensity" [1]', 2, 0)
 is_near(sent / hidden, 1, "in a furnace of radiance 1, over what it hides", 0.03)
-# The eye is within the built-in medium, with half a unit of it before a black wall. The map tells its light.
+# The eye is within the built-in medium, with half a unit of it before a black wall. The light comes from the map.
 t.write("within.rib", """Display "within.exr" "file" "rgb"
 Format 8 8 1
 Projection "orthographic"

@@ -101,7 +101,8 @@ class Gltf:
         return self.add("accessors", {**accessor, "min": [min(c) for c in finite], "max": [max(c) for c in finite]})
 
     def integers(self, rows, kind, stride=0, **more):
-        """Adds integers. `kind` is that of struct; elements begin `stride` bytes after one another, if it is given."""
+        """Adds integers. `kind` is a format character of the module struct; elements begin `stride` bytes after one another, if
+        it is given."""
         packed = [struct.pack(f"<{len(row)}{kind}", *row) for row in rows]
         accessor = {"componentType": {"b": 5120, "B": 5121, "h": 5122, "H": 5123}[kind], "count": len(rows), "type": f"VEC{len(rows[0])}", **more}
         return self.add("accessors", {**accessor, "bufferView": self.view(b"".join(p.ljust(stride, b"\0") for p in packed), stride)})

@@ -1,4 +1,5 @@
-"""What moves through changing light is named with its place; what moves in even light, or stands still, is not."""
+"""Tests that an object that moves through changing light is reported with its place, and an object that moves in even light or
+stands still is not."""
 import re
 
 from program import Suite

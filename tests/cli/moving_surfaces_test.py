@@ -78,7 +78,7 @@ t.write("named.rib", scene('Displacement "surface:bumpy" "height" [.07] Surface 
 t.expect_run("a displacement that is named after a surface", ["named.rib", "-o", "named.exr"], 0)
 t.expect(farthest(twice, pixels(t.folder / "named.exr")) < 1e-5, "moves what the surface would")
 
-# A surface may ask its displacement for what that has computed, point by point.
+# A surface may ask its displacement for values that it has computed at each point.
 t.write("carved.sl", "displacement carved(output varying float depth = 0; output varying color tint = 0) "
         "{ depth = .05 * sin(20 * s); P -= depth * normalize(N); N = calculatenormal(P); tint = color(s, t, .5); }")
 t.write("asking.sl", 'surface asking() { float depth = 7; color tint = 7; float told = displacement("depth", depth) + displacement("tint", tint);'
@@ -104,7 +104,8 @@ silent, _ = render("silent", scene('Surface "asking"'))
 t.expect(all(abs(a - 140) < 2 and c == 0 for a, b, c in told(silent)), f"nothing is told where nothing is displaced ({told(silent)[:2]})")
 heard, _ = render("heard", scene('LightSource "hearing" 9 Illuminate 1 0 Surface "telling"'), 0)
 t.expect(all(a == 0 and abs(b - 7) < 1e-4 and c == 0 for a, b, c in told(heard)), f"lights do not hear what a surface computes, and are told so ({told(heard)[:2]})")
-# Arrays, matrices and texts are not kept. What an output of these begins with is no answer, unless the shader never assigns it.
+# Arrays, matrices and strings are not kept. The first value of such an output is not returned, unless the shader never
+# assigns it.
 t.write("listing.sl", 'displacement listing(output varying float w[2] = {1, 2}; output varying matrix m = 3; output string g = "first";'
         'output varying float still[2] = {4, 5}) { w[0] = s; m = 7; g = "last"; N = calculatenormal(P); }')
 t.write("reading.sl", 'surface reading() { float w[2] = {9, 9}, still[2] = {9, 9}; matrix m = 9; string g = "own";'

@@ -1,4 +1,4 @@
-"""Tests models that no modeller should write, in every format that has such corners: each must give a picture or a message."""
+"""Tests models that no modeller should write, in every format that allows them: each must give a picture or a message."""
 import json
 import math
 import pathlib
@@ -17,8 +17,8 @@ nan, inf = float("nan"), float("inf")
 
 
 def judge(what, name, model, expected, *options):
-    """Imports and renders a model. `expected` is "picture" (something is seen), "message" (exit code 2), or "either", which may be an empty
-    picture too. None of these models crashes Assimp 5.2, so that a crash is one of ours."""
+    """Imports and renders a model. `expected` is "picture" (something is visible), "message" (exit code 2), or "either", which
+    may be an empty picture too. None of these models crashes Assimp 5.2, so that a crash is one of ours."""
     t.write(name, model)
     made = t.run("import", name, "-o", "odd.rib", *options, cpu_s=3)  # Assimp does not end on some files.
     codes = {"picture": (0,), "message": (2,), "either": (0, 2, 3)}[expected]
@@ -169,12 +169,12 @@ integers = shaped(square, [(0, 1, 2), (0, 2, 3)])
 set_in("accessors", componentType=5121)(integers)
 judge("lists within lists", "odd.gltf", integers.gltf().replace('"asset"', f'"extras": {"[" * 100000 + "]" * 100000}, "asset"', 1), "either")
 
-# Small files may ask for a lot of memory. 200 buffers are the same large file, of which each needs little.
+# Small files may ask for a lot of memory. 200 buffers are the same large file, and each of them needs little of it.
 BYTES = {"componentType": 5121, "type": "VEC3"}
 
 
 def of_bytes(name, buffers, views, accessors):
-    """Imports a file whose first mesh is a triangle for each accessor. Returns what was said."""
+    """Imports a file whose first mesh is a triangle for each accessor. Returns the messages."""
     meshes = [{"primitives": [{"attributes": {"POSITION": k}} for k in range(len(accessors))]}]
     t.write(name, json.dumps({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": meshes,
                               "buffers": buffers, "bufferViews": views, "accessors": [{**BYTES, **a} for a in accessors]}))

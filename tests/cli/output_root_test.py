@@ -28,7 +28,7 @@ def scene(name, text):
 
 
 def expect_kept(what, name, text, written, *says, code=0, arguments=()):
-    """Tests that the scene writes these files below the root, and nothing outside."""
+    """Tests that the scene writes these files below the root, and nothing outside of it."""
     scene(name, text)
     result = t.expect_run(what, [name, "--output-root", "work/kept", *arguments], code, *says)
     outside, inside = files()

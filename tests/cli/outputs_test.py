@@ -227,7 +227,7 @@ t.run("beauty.rib", "-o", "set.exr", "--gi", "gather", "--samples", "16", "-q")
 settings = header("set.exr")["tomales:settings"]
 t.expect(settings == "--gi gather --samples 16", f"settings of the command line are told ({settings})")
 
-# Finished frames are left out, and their contents tell that they are finished.
+# Finished frames are left out. The contents of their files show that they are finished.
 SKIP = ["shot.rib", "--skip-finished"]
 
 

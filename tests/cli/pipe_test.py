@@ -86,7 +86,7 @@ expect_told("shadetest of a plugin that is a pipe", ["shadetest", "./p.so"], 3, 
 expect_told("a device", ["compare", "/dev/zero", "/dev/zero"], 2, "it is a device")
 expect_told("a folder", ["compare", ".", "."], 2, "it is a folder")
 
-# Streams are allowed.
+# Streams are allowed here.
 t.expect_run("a scene on standard input", ["-", "-o", "in.exr"], 0, stdin=GOOD)
 t.expect_run("a scene on /dev/stdin", ["/dev/stdin", "-o", "in.exr"], 0, stdin=GOOD)
 

@@ -1,4 +1,5 @@
-"""Tests plugins with flipped bytes: `info` must always end with an exit code. A render must do so too, or name the plugin in its last words."""
+"""Tests plugins with flipped bytes: `info` must always end with an exit code. A render must do so too, or name the plugin in its
+last message."""
 import os
 import pathlib
 import random
@@ -67,7 +68,7 @@ subprocess.run([os.environ["CXX"], "-std=c++17", "-shared", "-fPIC", "-I", sourc
 t.expect_run("a name that leads nowhere is found on trial", ["scene.rib", "--plugin-path", "plugins"], 3, "crashes while it is loaded")
 t.expect_run("and in info", ["info", "plugins/dots.so"], 2, "crashes")
 
-# A procedural's constructor that crashes ends its trial and not the frame.
+# A procedural's constructor that crashes ends the trial of the plugin, but not the frame.
 t.write("tree.cpp", """#include <reyes/ri.h>
 struct Bad { Bad() { __builtin_trap(); } } bad;
 extern "C" RtPointer ConvertParameters(char*) { return nullptr; }

@@ -1,4 +1,4 @@
-"""Tests --progress on a terminal: it tells what is being done, and moves while nothing else does."""
+"""Tests --progress on a terminal: it says what is being done, and it moves also during long steps."""
 import os
 import pty
 import re

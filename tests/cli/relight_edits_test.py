@@ -1,5 +1,6 @@
-"""Tests that the page of tomales relight can change everything that shade --edit takes: shaders, texts, colours, the air, links of lights, and the
-imager. The saved edit must be small and readable, and give the bits of the page's picture."""
+"""Tests that the page of tomales relight can change everything that shade --edit takes: shaders, strings, colours, the
+atmosphere, links of lights, and the imager. The saved edit must be small and readable, and give the bits of the page's
+picture."""
 import json
 import os
 import pathlib

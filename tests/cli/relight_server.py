@@ -68,14 +68,14 @@ class Server:
 
     def news(self, after=0, told=0):
         code, _, data = self.get(f"news?after={after}&told={told}")
-        while code == 429:  # Who asks too often is told so.
+        while code == 429:  # A client that asks too often gets an answer that says so.
             time.sleep(0.1)
             code, _, data = self.get(f"news?after={after}&told={told}")
         length = struct.unpack_from("<I", data)[0]
         return json.loads(data[4:4 + length]), data[4 + length:]
 
     def settled(self):
-        """Waits until every layer is that of the present edit, and the check has been made."""
+        """Waits until every layer belongs to the present edit, and the check has been made."""
         end, after, told = time.time() + PATIENCE_S, 0, 0
         while time.time() < end:
             status, _ = self.news(after, told)

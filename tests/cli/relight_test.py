@@ -1,4 +1,4 @@
-"""Tests the server of tomales relight: who may ask, what it answers, and that a saved edit gives the picture of the page."""
+"""Tests the server of tomales relight: who may send requests, what it answers, and that a saved edit gives the picture of the page."""
 import array
 import json
 import os
@@ -79,7 +79,8 @@ suite.expect(whole is not None and all(whole[3 * (48 * y + x) + c] == warm[x, y]
              "shade --edit gives the bits of the page's picture")
 status, blocks = server.news()
 found = layers(blocks, 48, 36)
-# The page multiplies the layer of a light by the ratio of what it sends now to what the layer was shaded with.
+# The page multiplies the layer of a light by the ratio of the light's present output to the output with which the layer
+# was shaded.
 unit = status["layers"][2]["unit"]
 suite.expect(all(abs(u - 0.7) < 1e-6 for u in unit), "layers are as bright as the scene's lights")
 key_weight = [0.2 * tint / u for tint, u in zip((1, 0.5, 0.25), unit)]
@@ -127,7 +128,7 @@ with socket.socket() as other:
         shares = False
 suite.expect(not shares, "no other process can listen at its port")
 
-# One client makes no sense, and one says nothing.
+# One client sends nonsense, and one sends nothing.
 silent = [socket.create_connection(("127.0.0.1", int(server.port))) for _ in range(8)]
 random.seed(36)
 METHODS = ("GET", "POST", "PUT", "HEAD", "OPTIONS", "DELETE", "TRACE", "G\0T", "")
@@ -146,7 +147,7 @@ def nonsense():
     return bytes(data)
 
 
-# The suite sends some requests; TOMALES_REQUESTS=10000 is for a night.
+# The suite sends some requests; TOMALES_REQUESTS=10000 is for a run overnight.
 requests = int(os.environ.get("TOMALES_REQUESTS", "300"))
 for _ in range(requests):
     with socket.create_connection(("127.0.0.1", int(server.port)), timeout=5) as connection:

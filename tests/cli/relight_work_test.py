@@ -127,7 +127,7 @@ suite.expect(server.post("only", {})[0] == 200 and server.settled() is not None,
 for bad in ("only?x=1", "only?x=0&y=0&width=0&height=5", "only?x=9999&y=0&width=1&height=1", "gather", "gather?x=0&y=0&width=-1&height=1"):
     suite.expect(server.post(bad, {})[0] == 400, f"{bad} is refused")
 
-# Bounced light is gathered anew in a region.
+# Bounced light is gathered again in a region.
 dark = {"surfaces": {"walls": {"Kd": [0.1]}}}
 server.post("edit", dark)
 suite.expect("walls" in str(server.settled()["stale"]), "bounced light of a surface that has changed is known to be stale")

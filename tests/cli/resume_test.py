@@ -1,4 +1,4 @@
-"""Tests --resume: a frame that was interrupted or killed takes over its records, maps of light and shaded buckets. It must have the bits of
+"""Tests --resume: a frame that was interrupted or killed reuses its records, maps of light and shaded buckets. It must have the bits of
 an uninterrupted frame."""
 import json
 import signal
@@ -39,7 +39,7 @@ def shaded(name):
 
 
 def cut(at, number, *line):
-    """Starts a frame and sends it a signal when it has come to so many percent. If the signal comes so late that nothing is left to resume,
+    """Starts a frame and sends it a signal when it has reached this percentage. If the signal comes so late that nothing is left to resume,
     the frame is rendered again."""
     for _ in range(5):
         process = subprocess.Popen([t.program, *line, "--resume", "--progress", "-q", "-t", "2", "--stats", "cut.json"],
@@ -57,7 +57,7 @@ def cut(at, number, *line):
 
 
 def resumed(*line):
-    """Resumes the frame, which must have the bits of a whole frame. Returns the share of all rays that this traces."""
+    """Resumes the frame, which must have the bits of a whole frame. Returns the share of all rays that the resumed run traces."""
     t.expect_run("    goes on", [*line, "--resume", "--stats", "rest.json", "-t", "2"], 0)
     t.run(*line, "-o", "whole.exr", "--stats", "whole.json", "-q")
     t.expect((t.folder / "room.exr").read_bytes() == (t.folder / "whole.exr").read_bytes(), "    and has the same bits")

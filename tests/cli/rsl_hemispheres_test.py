@@ -55,7 +55,7 @@ def render(name, shader, attributes="", *arguments):
 
 
 def expect(name, picture, rays, few, mean, most, channel=0, scale=1):
-    """Compares with TRUTH. `few` tells whether fewer rays than four for each pixel's records are expected."""
+    """Compares with TRUTH. `few` says whether fewer than four rays per pixel are expected for records."""
     off = [abs(picture[k][channel] - scale * TRUTH[k]) for k in TRUTH]
     bias = sum(picture[k][channel] - scale * TRUTH[k] for k in TRUTH) / len(TRUTH)
     t.expect(abs(bias) < 0.002 and sum(off) / len(off) < mean and max(off) < most,
@@ -87,7 +87,7 @@ expect("elsewhere than P is traced", *moved, False, 0.01, 0.08)
 black, _ = render("  past the limit of depth", BOUNCED, 'Attribute "trace" "int maxdiffusedepth" [0]')
 t.expect(max(p[0] for p in black.values()) == 0, "  records are as dark as rays")
 
-# A shot keeps the records, and says where an edit has made them old.
+# A shot keeps the records, and a message says where an edit has made them old.
 LIT = 'LightSource "pointlight" "bulb" "from" [0 0 -1] "intensity" [1]'
 WALL = ('AttributeBegin\nAttribute "visibility" "int camera" [0]\nSurface "matte"\n'
         'Patch "bilinear" "P" [2 -2 0  2 2 0  2 -2 -3  2 2 -3]\nAttributeEnd\n')

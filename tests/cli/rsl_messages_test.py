@@ -1,4 +1,4 @@
-"""Tests what shaders are told of each other (RISpec 3.2, section 15.8), of options, and what primitive variables tell volumes."""
+"""Tests what shaders can read of each other (RISpec 3.2, section 15.8) and of options, and primitive variables in volume shaders."""
 import pathlib
 import sys
 
@@ -112,7 +112,7 @@ LENS = "DepthOfField 2.8 .5 3 Shutter 0 1 Clipping .5 100"
 for before, rows, aspect in (("", 4, 1), ("FrameAspectRatio 2", 2, 2)):
     shown("opts", 'Surface "opts"', before=f"{before} {LENS}", says=(WHOLE.format(rows=rows, aspect=aspect).replace(" .", " 0."),))
 
-# What a light computes for the renderer is known if it is the same everywhere, or an output.
+# A value that a light computes for the renderer is known if it is the same everywhere, or an output.
 t.write("roles.sl", 'light roles(float nd = 0; string first = "a"; uniform float __nondiffuse = nd; string __category = concat(first, ",b"))'
         ' { solar(vector "camera" (0, 0, 1), 0) { Cl = 1; } }\n'
         'light puts(float nd = 0; output float __nondiffuse = nd) { solar(vector "camera" (0, 0, 1), 0) { Cl = 1; } }\n'

@@ -1,4 +1,5 @@
-"""Tests shaders in the RenderMan Shading Language as a user meets them: they are found by name, compiled, reported on and tried."""
+"""Tests shaders in the RenderMan Shading Language as a user meets them: they are found by name and compiled, their errors are
+reported, and commands try them."""
 import json
 import os
 import pathlib
@@ -337,7 +338,7 @@ scene("raised", 'LightSource "lamp" 1 Attribute "displacementbound" "sphere" [0.
 render("a surface that looks for light before it displaces", "raised")
 t.expect(sum(c != BLACK for c in picture("raised").values()) == far, "moves the surface as a displacement does")
 
-# Bases of splines have two names, and others are told of.
+# Bases of splines have two names, and unknown names are reported.
 for basis, code in (("bspline", None), ("catrom", None), ("solvecatrom", None), ("bogus", 'basis "bogus"')):
     t.write("curve.sl", f'surface curve() {{ Oi = 1; Ci = spline("{basis}", s, 0, 0, 1, 1); }}\n')
     scene("curve", 'Surface "curve"')

@@ -1,4 +1,4 @@
-"""Tests what a run tells of itself: -v, --log, --stats for each frame, and passes that go from 0 to 100 %."""
+"""Tests what a run reports about itself: -v, --log, --stats for each frame, and passes that go from 0 to 100 %."""
 import json
 import re
 import socket
@@ -73,7 +73,7 @@ before = (t.folder / "all.01.json").read_bytes()
 t.run("turn.rib", "--skip-finished", "--stats", "all.##.json")
 t.expect((t.folder / "all.01.json").read_bytes() == before, "a frame that is left out keeps its figures")
 
-# A run that goes well tells so on request, and prints nothing else.
+# A successful run says so on request, and prints nothing else.
 quiet = t.expect_run("a run without a word", ["turn.rib", "--frames", "1"], 0)
 t.expect(quiet.stdout + quiet.stderr == "", "says nothing")
 told = t.expect_run("-v", ["turn.rib", "--frames", "1,3", "-v"], 0).stderr
@@ -97,7 +97,7 @@ t.expect_run("a history on a full disk", ["good.rib", "--stats", "full.jsonl", "
 
 
 def passes(*arguments):
-    """Returns the passes of a command with what they tell, in order, and the shares of the frame."""
+    """Returns the passes of a command with their messages, in order, and the shares of the frame."""
     said = t.expect_run(" ".join(arguments[:2]), [*arguments, "--progress", "-t", "2"], 0).stdout.splitlines()
     out, frame = {}, []
     for line in said:

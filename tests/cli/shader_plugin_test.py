@@ -1,4 +1,5 @@
-"""Tests shader plugins that are broken in every way that can be told: errors have a place, and the frame goes on with a loud substitute."""
+"""Tests shader plugins that are broken in every way that can be detected: errors have a place, and the frame goes on with a
+conspicuous substitute."""
 import os
 import pathlib
 import signal

@@ -1,4 +1,4 @@
-"""Tests one shader over a grid, for values that are known and for shaders that do not exist."""
+"""Tests `tomales shadetest`, which runs one shader over a grid: known values, and shaders that do not exist."""
 import os
 import pathlib
 import re
@@ -43,7 +43,7 @@ for shader in ("glass", "mirror", "occlusionlight", "arealight"):
 arealight = t.run("shadetest", "arealight", "--grid", "4x4")
 t.expect(figure(arealight, "Ci greatest")[0] > 0.01, "an area light has a lamp to shine from")
 
-# --check tells what a shader declares, and what it does.
+# --check compares what a shader declares with what it does.
 source = pathlib.Path(__file__).resolve().parent.parent.parent
 PLUGIN = """#include <reyes/shader.h>
 namespace {

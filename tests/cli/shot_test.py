@@ -99,7 +99,7 @@ suite.run("render", "indirect.rib", "--crop", "0.25,0.75,0.5,1", "-o", "crop.ren
 window = subprocess.run(["oiiotool", "indirect.exr", "--crop", "24x20+12+20", "crop.exr", "--diff"], cwd=suite.folder, capture_output=True, text=True)
 suite.expect(window.returncode == 0 and "PASS" in window.stdout, "a crop of a shot is that part of its picture " + window.stdout[-200:])
 
-# What a lighter edits is compared with the same change in the scene.
+# An edit of a lighter is compared with the same change in the scene.
 suite.write("edit.rib", """Attribute "identifier" "name" ["ball"]
 Surface "plastic" "Ks" [0.9]
 Color [0.2 0.3 0.9]
@@ -230,7 +230,7 @@ suite.expect_run("a memory limit is obeyed and said so", ["render", "direct.rib"
 expect_same("a frame that is shaded bucket by bucket has the same bits", "direct.exr", "small.exr")
 suite.run("render", "indirect.rib", "-o", "given.exr", "--irradiance", "indirect.icf", "--stats", "given.json", "-q")
 expect_same("a render with records from a file has the same bits", "indirect.exr", "given.exr")
-# Records keep what an edited light has bounced.
+# Records keep the bounced light of an edited light.
 suite.write("dim.rib", 'LightSource "pointlight" "key" "intensity" [3]\n')
 suite.write("exposure.rib", "Exposure 2 1\n")
 suite.expect_run("a dimmed light with records of the old one", ["shade", "indirect.dfb", "--irradiance", "indirect.icf", "--edit", "dim.rib", "-o", "dim.exr"], 0,
@@ -238,7 +238,7 @@ suite.expect_run("a dimmed light with records of the old one", ["shade", "indire
 quiet = suite.expect_run("an edit that bounces no light", ["shade", "indirect.dfb", "--irradiance", "indirect.icf", "--edit", "exposure.rib", "-o", "dim.exr"], 0)
 suite.expect("light-stale" not in quiet.stderr, "is not told")
 
-# One region is gathered anew after an edit, and the rest of the picture stays as it is.
+# One region is gathered again after an edit, and the rest of the picture stays as it is.
 suite.write("region.rib", 'Attribute "identifier" "name" ["floor"] Color [0.9 0.1 0.1]')
 suite.run("gather", "indirect.dfb", "-o", "region.icf", "--irradiance", "indirect.icf", "--crop", "0,0.4,0,1", "--edit", "region.rib", "--stats", "region.json", "-q")
 for name in ("indirect", "region"):

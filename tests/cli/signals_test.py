@@ -112,7 +112,7 @@ expect_soon("the gather command", process, 143)
 process = start("shade", "room.dfb", "--gi", "reference", "--samples", "20000", "-o", "shade.exr")
 time.sleep(1)
 expect_soon("the shade command", process, 143)
-silent, writer = os.pipe()  # This stays open. The function communicate() would close a pipe of its own, and the program might see that first.
+silent, writer = os.pipe()  # This pipe stays open. The function communicate() would close a pipe of its own, and the program might see that first.
 process = start("-", stdin=silent)
 time.sleep(0.3)
 expect_soon("waiting for a scene", process, 143)

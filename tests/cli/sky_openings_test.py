@@ -1,5 +1,5 @@
-"""Tests that the openings of a sky behind a window are found: less noise, the same light, one message, and the same bits by way of a shot. It can
-be switched off."""
+"""Tests that the openings of a sky behind a window are found: less noise, the same light, one message, and the same bits by way
+of a shot. The search can be switched off."""
 import pathlib
 import re
 import sys

@@ -17,7 +17,7 @@ SIGMA = DENSITY * (lambda x: x * x * (3 - 2 * x))(0.3 / 0.7)  # Smoke without oc
 
 
 def mean(name, lights, things="", height=0, top=1e6, lightsteps=0):
-    """Returns the mean of what smoke before a black wall sends, at one height, to an eye in parallel projection."""
+    """Returns the mean radiance that smoke in front of a black wall sends, at one height, to an eye in parallel projection."""
     t.write(name + ".rib", f"""Display "{name}.exr" "file" "rgba"
 Format 16 16 1
 PixelSamples 1 1

@@ -1,5 +1,5 @@
-"""Tests that the variable `standarderror` of a Display is as large as the difference of pictures with other seeds, and changes nothing of the
-picture."""
+"""Tests that the variable `standarderror` of a Display is as large as the differences between pictures with different seeds, and
+does not change the picture."""
 import math
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Tests that --audit states the error of a picture and changes nothing of it, whatever the threads, the buckets and the way to the picture."""
+"""Tests that --audit states the error of a picture and does not change it, whatever the threads, the buckets and the commands that make it."""
 import json
 import pathlib
 import sys

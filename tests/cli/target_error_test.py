@@ -1,4 +1,5 @@
-"""Tests that --target-error chooses settings that reach an error, reports them, and gives the picture that they give by hand."""
+"""Tests that --target-error chooses settings that reach an error, reports them, and makes the picture that these settings give on
+the command line."""
 import json
 import pathlib
 import re
@@ -24,7 +25,7 @@ def reach(out, target, *arguments, command=("room.rib",)):
 
 
 def last_of(picture):
-    """Returns the settings that the header tells."""
+    """Returns the settings in the header."""
     return exr.texts(t.folder / picture)["tomales:chosen"].split()
 
 

@@ -1,4 +1,5 @@
-"""Tests pictures on surfaces: they are filtered where they are small, RIB requests make them, and broken ones have a loud substitute."""
+"""Tests pictures on surfaces: they are filtered where they are small, RIB requests make them, and broken ones have a conspicuous
+substitute."""
 import json
 import struct
 import subprocess

@@ -8,7 +8,7 @@ t = Suite()
 
 
 def bowls(*shells):
-    """Returns bowls with another bowl round them. Each pair is an attribute state of its own: (name, radius of the outer one)."""
+    """Returns bowls, each with another bowl around it. Each pair is an attribute state of its own: (name, radius of the outer one)."""
     out = ['Format 144 48 1 PixelSamples 1 1 PixelFilter "box" 1 1 Projection "orthographic" ScreenWindow -3 3 -1 1 Display "bowls.exr" "openexr" "rgb" WorldBegin '
            'LightSource "indirectlight" "gi" "float samples" [64] LightSource "distantlight" 1 "from" [0 0 -3] "to" [0 0 0] Surface "matte"']
     for k, (name, radius) in enumerate(shells):

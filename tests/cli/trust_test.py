@@ -1,4 +1,4 @@
-"""Tests scenes that come from a stranger: each way in that docs/security.md names is tried, with leave and without."""
+"""Tests scenes that come from a stranger: each risk that docs/security.md names is tried, with permission and without."""
 import os
 import pathlib
 import shutil
@@ -38,7 +38,7 @@ def scene(name, path, request):
 
 
 def runs(what, arguments, code, *says):
-    """Tells whether the plugin's code was run, in this process or in the one that tries plugins."""
+    """Returns whether the plugin's code was run, in this process or in the one that tries plugins."""
     (t.folder / "ran").unlink(missing_ok=True)
     t.expect_run(what, arguments, code, *says)
     return (t.folder / "ran").exists()
@@ -142,7 +142,7 @@ for name in ("system", "program"):
     t.expect(not runs(f"{name} is refused", [name + ".rib", "--allow-plugins", "--plugin-path", "."], 3, "--allow-system allows them"), f"{name}: plugins are no programs")
     t.expect(runs(f"{name} is allowed", [name + ".rib", "--allow-system"], 0), f"{name}: --allow-system runs it")
 
-# The folder of a scene holds files that are called as libraries of the program.
+# The folder of a scene holds files with the names of libraries of the program.
 for line in subprocess.run(["ldd", t.program], capture_output=True, text=True, check=True).stdout.splitlines():
     if line.strip().startswith("lib"):
         t.write(line.split()[0], "no library")

@@ -1,5 +1,5 @@
-"""Tests that photons, irradiance and brickmake, which make folders of several files, leave nothing that is taken for a whole folder when they are
-killed."""
+"""Tests that photons, irradiance and brickmake, which make folders of several files, leave nothing that could be taken for a
+whole folder when they are killed."""
 import os
 import signal
 import subprocess
@@ -28,7 +28,7 @@ def files(folder):
 
 
 def killed(arguments, folder, count):
-    """Kills the command as soon as the folder has so many files. Returns False if the folder was whole before."""
+    """Kills the command as soon as the folder has this number of files. Returns False if the folder was whole before."""
     process = subprocess.Popen([t.program, *arguments], cwd=t.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None and len(files(folder)) < count:
         time.sleep(0.0005)

@@ -1,4 +1,4 @@
-"""Tests files on their way to their names: processes that write the same file, links, inputs that are outputs, and standard files that
+"""Tests files that are not yet renamed: processes that write the same file, links, inputs that are outputs, and standard files that
 are closed."""
 import json
 import os

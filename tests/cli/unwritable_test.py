@@ -1,5 +1,5 @@
-"""Tests that output that cannot be written gives exit code 4, in every command and for every kind of output. Words in the place of numbers are
-wrong usage."""
+"""Tests that output that cannot be written gives exit code 4, in every command and for every kind of output. Words instead of
+numbers are wrong usage."""
 import shutil
 import subprocess
 
@@ -72,9 +72,9 @@ for what, command in {"info": '"$0" info good.rib', "compare": '"$0" compare goo
                       "brickmake": f'"$0" brickmake {lit_points} -o o.bkm', "--help": '"$0" --help'}.items():
     result = subprocess.run(["bash", "-c", command + " > /dev/full", t.program], cwd=t.folder, capture_output=True, text=True, timeout=60)
     t.expect(result.returncode == 4 and "standard output" in result.stderr, f"{what} to a standard output that is full (exit {result.returncode}) {result.stderr[-200:]}")
-# A frame does not begin where one of its Displays cannot be written, as is known before.
+# A frame does not begin if it is known beforehand that one of its Displays cannot be written.
 (t.folder / "alone").mkdir()
-shutil.copy(t.program, t.folder / "alone/tomales")  # The module that writes TIFF is not beside it.
+shutil.copy(t.program, t.folder / "alone/tomales")  # The module that writes TIFF is not beside the program.
 for what, display, program, *says in (
         ("depth in a PNG", '"+z.png" "file" "z"', t.program, "PNG holds no depth"),
         ("Cryptomatte in a TIFF", '"+id.tif" "tiff" "cryptoobject"', t.program, "Cryptomatte needs OpenEXR"),

@@ -75,12 +75,12 @@ for copy in ("map.z", "map", "map.rib", "map.tex", "map.jpg"):
     t.expect(info["kind"] == "image" and info["size"] == [24, 24], "goes by its first bytes")
 t.expect_run("a picture is no scene, whatever its name", ["map.rib"], 2, "is a picture by its first bytes", "not-rib")
 
-# After an interruption, finished buckets are written and the exit code tells it.
+# After an interruption, finished buckets are written and the exit code reports it.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
     out = t.folder / f"cut{code}.exr"
     process = subprocess.Popen([t.program, "good.rib", "-o", out.name, "--format", "2000x2000", "--stats", "cut.json", "--progress",
                                 "-t", "1"], cwd=t.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    process.stdout.readline()  # The first percent shows that the frame is under way.
+    process.stdout.readline()  # The first per cent shows that the frame has begun.
     process.send_signal(number)
     t.expect(process.communicate(timeout=200) and process.returncode == code, f"signal {int(number)} ends with {code}")
     t.expect(out.with_suffix(".partial.exr").exists() and not out.exists() and json.loads((t.folder / "cut.json").read_text())["time_s"]["total"] > 0, "with a picture and statistics")

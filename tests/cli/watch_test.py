@@ -61,7 +61,7 @@ start = time.time()
 t.expect_run("a viewer that does not read", ["good.rib", "-o", "deaf.exr", "--format", "1200x1200", "--pixel-samples", "1x1", f"--preview={deaf.address}"], 0)
 t.expect_run("has not changed the picture", ["info", "deaf.exr"], 0)
 
-# --pixel tells what a pixel sees.
+# --pixel prints what a pixel sees.
 seen = t.expect_run("--pixel", ["good.rib", "-o", "seen.exr", "--pixel", "45,75", "--pixel", "0,0"], 0, "pixel 45,75: 4 samples see",
                     "pixel 0,0: 4 samples see 0 micropolygons", '"ball" (', "good.rib:9", "matte", "Oi 1 1 1")
 depth = float(re.search(r"z ([0-9.]+)", seen.stdout)[1])
