@@ -1,9 +1,9 @@
-"""Measures what each amendment of the irradiance cache (gi/cache/amendments/switches.h) mends and costs. Each is switched off alone, over the scenes
-of tests/stability/irradiance_cache and cornell.
+"""Measures what each amendment of the irradiance cache (gi/cache/amendments/switches.h) improves and costs. Each one is switched
+off alone, over the scenes of tests/stability/irradiance_cache and cornell.
     amendments.py TOMALES [--size 48] [--samples 200] [--scenes ...] [--without ...] [--error-function screen] [--keep FOLDER] [-t 1]
-Indirect light is compared with a gather at every point with six times the rays. Each row has the mean error, that of the worst window of 8 x 8 pixels,
-the share of pixels that should be black and get light, records and CPU seconds. Flicker is that of tests/stability/flicker_test.py on fixed points, for
-box_ball alone."""
+Indirect light is compared with a gather at every point with six times the rays. Each row has the mean error, the error of the
+worst window of 8 x 8 pixels, the share of pixels that should be black but get light, records and CPU seconds. Flicker is that of
+tests/stability/flicker_test.py on fixed points, for box_ball alone."""
 import argparse
 import json
 import os
@@ -79,7 +79,7 @@ with tempfile.TemporaryDirectory() as name:
     for without in options.without:
         for scene, truth in truths.items():
             rows = []
-            for seed in range(2, 2 + options.seeds):  # Seed 1 is that of the truth.
+            for seed in range(2, 2 + options.seeds):  # Seed 1 is the seed of the truth.
                 picture, stats = render(folder, scene, without, "--samples", options.samples, "--error-function", options.error_function, "--light-seed", seed)
                 rows.append((*figures(picture, truth), stats["irradiance_cache"]["samples"], stats["cpu_s"]))
             print("without %-13s %-12s mean %5.2f %%, worst window %5.1f %%, black that gets light %5.2f %%, %5.0f records, %.2f CPU s" %

@@ -2,11 +2,11 @@
 
     tests/bench/author_pictures.py build/release/tomales FOLDER ... --keep SHEETS [--seconds 60] [--only PART] [-- -t 1 ...]
 
-Debian's packages: python3-numpy python3-openimageio. A RIB file has its author's picture beside it if a picture in its folder, or in a folder of
-pictures below it, has the file's name or that of one of its Displays. The scene is rendered from where it lies, at the size of that picture, as
-public_scenes.py does it. Old pictures hold 8 bits without gamma unless the scene's Exposure says otherwise, and ours are converted alike. The rms
-difference is that of blocks of 4 x 4 pixels, in units of white, so that grain and filters at outlines count little. SHEETS gets a picture of each
-pair: ours, theirs, and the difference times four.
+Debian's packages: python3-numpy python3-openimageio. A RIB file has its author's picture beside it if a picture in its folder, or
+in a folder of pictures below it, has the file's name or that of one of its Displays. The scene is rendered from where it lies, at
+the size of that picture, as public_scenes.py does it. Old pictures hold 8 bits without gamma unless the scene's Exposure says
+otherwise, and ours are converted in the same way. The rms difference is taken over blocks of 4 x 4 pixels, in units of white, so
+that noise and filters at outlines count little. SHEETS gets a picture of each pair: ours, theirs, and the difference times four.
 """
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""Gives many tiny frames to a real Slurm on this machine (tests/slurm/cluster.py, which needs root, slurm-wlm and munge). It measures the
-controller's CPU time and memory, the time to submit, and the time until all frames are finished.
+"""Submits many tiny frames to a real Slurm cluster on this machine (tests/slurm/cluster.py, which needs root, slurm-wlm and
+munge). It measures the controller's CPU time and memory, the time to submit, and the time until all frames are finished.
     batch_controller.py build/release/tomales [FRAMES]"""
 import json
 import os

@@ -1,10 +1,11 @@
-"""Replays the plan of a long shot on many nodes, with the pass times and files of a batch that has run. It tells when the shot would be done, the
-critical path, the idle nodes, and the traffic of the shared file system.
+"""Replays the plan of a long shot on many nodes, with the pass times and files of a batch that has run. It prints when the shot
+would be finished, the critical path, the idle nodes, and the traffic of the shared file system.
     batch_simulation.py PLAN_FOLDER [--frames 2000] [--nodes 500] [--scale 1]
-The tasks of the batch are repeated until there are that many frames, but for those that all frames share (photons, maps of light, Make
-requests). Each takes the CPU time that it took, times --scale (frames of the test are small), and reads and writes the files that it did.
-Nodes take tasks in the order of the plan once what they need is done, --launch seconds after they are free (Slurm's latency), and no more
-than --rate tasks a second begin (its controller). A task waits for its files over a link of --link bytes a second."""
+The tasks of the batch are repeated until there are that many frames, except for tasks that all frames share (photons, maps of
+light, Make requests). Each task takes the CPU time that it took in the batch, times --scale (frames of the test are small), and
+reads and writes the same files. Nodes take tasks in the order of the plan once the tasks that these depend on are done, --launch
+seconds after the node is free (Slurm's latency). No more than --rate tasks begin per second (Slurm's controller). A task waits
+for its files over a link of --link bytes per second."""
 import argparse
 import collections
 import heapq
@@ -47,8 +48,8 @@ def duration(task):
 
 
 def replay(all_tasks, nodes):
-    """Gives the first task that may run to the earliest free node. Returns the seconds until all is done, the seconds that nodes have worked, and
-    the bytes of each second."""
+    """Assigns the first task that may run to the earliest free node. Returns the seconds until all tasks are done, the seconds
+    that nodes have worked, and the bytes of each second."""
     place = {t.name: i for i, t in enumerate(all_tasks)}
     missing, followers = [len(t.needs) for t in all_tasks], collections.defaultdict(list)
     for i, t in enumerate(all_tasks):

@@ -1,13 +1,13 @@
 """Exports frames of 500 moving objects: blender -b --factory-startup -P tests/bench/blender_export.py -- FOLDER
 
-It prints the frames a second over 24 frames in which only transformations change. As in the tests, TOMALES_SOURCE names the source tree.
-"""
+It prints the frames per second over 24 frames in which only transformations change. As in the tests, TOMALES_SOURCE names the
+source tree. """
 import os
 import sys
 import time
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only lends its tools.
+sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only provides its functions.
 sys.path.insert(0, os.path.join(os.environ["TOMALES_SOURCE"], "tests/blender"))
 import bpy  # noqa: E402
 from scenes import camera, empty_scene, light, material  # noqa: E402

@@ -1,10 +1,11 @@
-"""Compares caustics of `--gi reference` with those of Cycles: a large lamp over a ball, and over a slanting pane, of glass, and a floor.
+"""Compares caustics of `--gi reference` with those of Cycles: a large lamp over a ball of glass, and over a slanting pane of
+glass, above a floor.
 
     caustic_cycles.py TOMALES FOLDER [--seeds 4] [--cycles 4096] [--paths 1024] [--photons 4000000] [--blender blender]
 
-The eye looks straight down and does not see the glass or the lamp. Both renderers make a picture for each seed. It prints both means, and the differences of
-blocks of 4 x 4 pixels, with the noise that the seeds tell. FOLDER gets the pictures, and keeps those of Cycles for the next call.
-"""
+The eye looks straight down and does not see the glass or the lamp. Both renderers make a picture for each seed. It prints both
+means, and the differences of blocks of 4 x 4 pixels, with the noise that is estimated from the seeds. FOLDER gets the pictures,
+and keeps those of Cycles for the next call. """
 import argparse
 import json
 import math
@@ -14,7 +15,7 @@ import subprocess
 import sys
 
 SIZE, BLOCK = 32, 4
-# The floor is so dark that light which it reflects to the glass and gets back is less than a thousandth.
+# The floor is so dark that less than a thousandth of the light is reflected from it to the glass and back.
 ALBEDO, RADIANCE, LAMP, HEIGHT = 0.05, 10, 0.7, 3
 BALL, UP = 0.4, 0.8
 PANE, THICKNESS, SLANT = 0.8, 0.05, 25

@@ -1,10 +1,10 @@
-"""Measures how much noise `tomales denoise` removes from ten scenes at three levels of noise, and how true its stated errors are.
+"""Measures how much noise `tomales denoise` removes from ten scenes at three levels of noise, and how accurate its stated errors are.
 
     tests/bench/denoise.py build/release/tomales [--format 160x120] [--only PART,PART] with parts of the scenes' names
 
-Errors are root mean squares, over the mean colour, of three pairs of halves. The truth is the mean of 8 pictures with 64 times the samples of the
-noisiest level. The errors are those of the mean of the two halves and of the filtered picture, and both as the command states them.
-"""
+Errors are root mean squares divided by the mean colour, of three pairs of halves. The truth is the mean of 8 pictures with 64
+times the samples of the noisiest level. There are four errors: of the mean of the two halves and of the filtered picture, and
+both as the command states them. """
 import math
 import pathlib
 import re

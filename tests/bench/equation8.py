@@ -1,12 +1,12 @@
-"""Compares equation 8 of Tabellion and Lamorlette 2004, on its bumped, glossy ball (scenes/cornell_ball), with a gather at every point that knows the whole plastic.
+"""Compares equation 8 of Tabellion and Lamorlette 2004, on its bumped, glossy ball (scenes/cornell_ball), with a gather at every
+point that uses the whole BRDF of plastic.
 
     equation8.py TOMALES FOLDER [--size 128] [--truth 4096]
 
-The truth is a surface shader that sends rays over the hemisphere of the bumped normal, and passes the light of each to the plastic's diffuse() and
-specular(). With fewer rays this shader is the other method of the comparison. Errors are rms over the pixels of the ball, divided by the mean of the
-truth's whole light there. CPU seconds are those of the picture of both parts, less those without indirect light. Pictures stay in FOLDER. Needs a C++
-compiler.
-"""
+The truth is a surface shader that sends rays over the hemisphere of the bumped normal, and passes the light of each to the
+plastic's diffuse() and specular(). With fewer rays this shader is the other method of the comparison. Errors are rms over the
+pixels of the ball, divided by the mean of the truth's whole light there. CPU seconds are those of the picture with both parts,
+minus those without indirect light. Pictures stay in FOLDER. Needs a C++ compiler. """
 import argparse
 import json
 import math

@@ -1,13 +1,13 @@
-"""Measures how true the error is that `tomales render --audit` states, on rooms of tests/stability and random rooms, against many paths at every
-pixel.
+"""Measures how accurate the error is that `tomales render --audit` states, on rooms of tests/stability and random rooms, against
+many paths at every pixel.
 
     tests/bench/error_rooms.py build/release/tomales [--rooms box_ball hot_spot random1 random2] [--seeds 5] [--size 32] [--paths 2048] [-t 1]
                                [--settings "--samples 150" "--samples 600 --max-error 2"]
 
-It writes the rows of the table in docs/measured/error.md. The truth is the mean of two pictures by `--gi reference`. Its own noise, which is half of
-their difference, is subtracted in squares. hot_spot gets four times the paths. With settings of `--gi none` direct light is compared, against 1024
-light samples. Otherwise indirect light alone is compared, so that its error is the error of the picture.
-"""
+It writes the rows of the table in docs/measured/error.md. The truth is the mean of two pictures by `--gi reference`. Its own
+noise, which is half of their difference, is subtracted from squared errors. hot_spot gets four times the paths. With settings of
+`--gi none` direct light is compared, against 1024 light samples. Otherwise indirect light alone is compared, so that its error is
+the error of the picture. """
 import argparse
 import json
 import math
@@ -94,7 +94,7 @@ class Rooms:
         return [] if "none" in arguments else ["--indirect-only"]
 
     def truth(self, room, paths, direct=False):
-        """Returns two pictures with random numbers of their own."""
+        """Returns two pictures with different random numbers."""
         count = str(paths * MORE_PATHS.get(room, 1))
         method = ["--gi", "none", "--light-samples", "1024"] if direct else ["--gi", "reference", "--ray-geometry", "scene", "--samples", count]
         return [self.render(room, *method, "--light-seed", str(1000 + i))[0] for i in range(2)]

@@ -2,10 +2,10 @@
 
     figure5.py TOMALES FOLDER [--size 512] [--samples 1000] [-t 2]
 
-(d) is equation 5 with kappa = 0.5, and (e) is the same with bumped normals in equation 4. (f) is the error function of Ward and Heckbert 1992 with as
-many records as (d); it has no limits in pixels and refines nothing. "limited" is (f) with R- and R+ of equation 3, and has as many records too. This
-needs ImageMagick. FOLDER gets pictures and figure5.png, whose rows are picture, closeup, (d) and (e), (f), limited.
-"""
+(d) is equation 5 with kappa = 0.5, and (e) is the same with bumped normals in equation 4. (f) is the error function of Ward and
+Heckbert 1992 with the same number of records as (d); it has no limits in pixels and refines nothing. "limited" is (f) with R- and
+R+ of equation 3, and has the same number of records. This needs ImageMagick. FOLDER gets pictures and figure5.png, whose rows are
+picture, closeup, (d) and (e), (f), limited. """
 import argparse
 import math
 import pathlib
@@ -15,9 +15,10 @@ import subprocess
 SCENE = (pathlib.Path(__file__).parents[2] / "scenes/cornell_ball/cornell_ball.rib").read_text()
 BALL, RADIUS = (0, -0.15, 0), 0.5
 BUMP = 'Displacement "noisybump"'
-# An object with a displacement bound has points that move, and its records have the normals of displacement. So small a bound changes nothing else.
+# An object with a displacement bound has points that move, so its records have the normals of the displaced surface. A
+# bound this small changes nothing else.
 BUMPED = SCENE.replace(BUMP, 'Attribute "displacementbound" "float sphere" [1e-6] ' + BUMP)
-TILE = 400  # These are pixels of the picture of all.
+TILE = 400  # This is the number of pixels along each edge of the pictures in figure5.png.
 NEAR = (0.02, 0.04, 0.08, 0.16)  # These are distances from an edge of the box.
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

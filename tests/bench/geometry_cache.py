@@ -1,5 +1,5 @@
-"""Measures what a small geometry cache costs (docs/measured/rays.md). Rays see the displacement of a scene at three levels. The cache has room in
-turn for all that they ask for, and for a thirtieth of the full-rate geometry.
+"""Measures what a small geometry cache costs (docs/measured/rays.md). Rays see the displacement of a scene at three levels. In
+one render the cache has room for all polygons that they ask for, and in another for a thirtieth of the full-rate geometry.
     geometry_cache.py TOMALES [RIB [further arguments of each render]]"""
 import json
 import pathlib

@@ -4,11 +4,10 @@
     tests/bench/gloss.py build/release/tomales [another tomales ...] --materials for the balls of scenes/shading/materials.rib, all of one surface
     tests/bench/gloss.py build/release/tomales --gallery [PART ...] with parts of the scenes' paths
 
-Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there. Colours above 1 count as 1. Time at equal noise
-is CPU seconds times the square of the noise, as a multiple of plastic's. For the gallery, this counts the pixels that are brighter than 10 times the
-median of their 5 x 5 neighbours. It lists those that are also more than twice as bright as with another light seed, because these are no thin bright
-objects.
-"""
+Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there.
+Colours above 1 count as 1. Time at equal noise is CPU seconds times the square of the noise, as a multiple of plastic's. For the
+gallery, this counts the pixels that are brighter than 10 times the median of their 5 x 5 neighbours. It lists those that are also
+more than twice as bright as with another light seed, because those are not thin bright objects. """
 import math
 import pathlib
 import re
@@ -90,7 +89,7 @@ def render(program, folder, *arguments):
 
 
 def noise(a, b, mask):
-    """`mask` lists pixels. Colours above 1 count as 1."""
+    """Returns the noise in the pixels that `mask` lists. Colours above 1 count as 1."""
     pairs = [(min(x, 1), min(y, 1)) for p in mask for x, y in zip(a[p][:3], b[p][:3])]
     return math.sqrt(sum((x - y) ** 2 for x, y in pairs) / len(pairs) / 2) / (sum(x + y for x, y in pairs) / len(pairs) / 2)
 

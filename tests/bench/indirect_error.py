@@ -3,12 +3,12 @@
     tests/bench/indirect_error.py build/release/tomales FOLDER [--scenes cornell film hot_spot sun_room box_ball] [--batches 2] [--bounces 1]
                                   [-t 1] [--json out.json] [-- ARGUMENTS OF tomales render ...]
 
-Debian's packages: python3-numpy python3-openimageio. The reference is `--gi reference`, each batch with a seed of its own, in square windows whose
-places depend on nothing but their number (Halton's points), because whole frames would take hours; only their pixels count. FOLDER/SCENE keeps it, so
-that the next call is quick, and gets error.png. The error is |test - reference| / (reference + 1 % of its mean) of the indirect light, over the
-colours of all pixels where the reference is not black. It is also given with a tenth of the mean and with 0.01, which `tomales chart` uses. `noise`
-is that of the reference itself, from the spread of its batches. Every figure contains this noise.
-"""
+Debian's packages: python3-numpy python3-openimageio. The reference is `--gi reference`, each batch with a seed of its own, in
+square windows whose places depend on nothing but their number (Halton's points), because whole frames would take hours; only
+their pixels count. FOLDER/SCENE keeps the reference, so that the next call is quick, and gets error.png. The error is |test -
+reference| / (reference + 1 % of its mean) of the indirect light, over the colours of all pixels where the reference is not black.
+It is also given with a tenth of the mean and with 0.01, which `tomales chart` uses. `noise` is the noise of the reference itself,
+from the spread of its batches. Every figure contains this noise. """
 import argparse
 import dataclasses
 import json
@@ -26,9 +26,9 @@ ROOT = pathlib.Path(__file__).parents[2]
 class Case:
     scene: str
     size: tuple    # The size of the frame in pixels.
-    windows: int   # The reference is traced in so many squares
-    edge: int      # of so many pixels each,
-    samples: int   # with so many paths for a point and batch.
+    windows: int   # The reference is traced in this number of squares,
+    edge: int      # of this number of pixels each,
+    samples: int   # with this number of paths per point and batch.
 
 
 CASES = {
@@ -76,7 +76,7 @@ class Bench:
         return json.loads(stats.read_text())
 
     def reference(self, batch):
-        """Returns the reference, and where it is known."""
+        """Returns the reference, and the pixels at which it is known."""
         (width, height), edge = self.size, self.case.edge
         whole, known = numpy.zeros((height, width, 3), numpy.float32), numpy.zeros((height, width), bool)
         for x, y in windows(self.case):

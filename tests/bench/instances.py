@@ -3,7 +3,7 @@ goal is 300 MB.
 
     tests/bench/instances.py build/release/tomales [--camera low all cloud] [--gi none gather] [-t 2] [--keep FOLDER]
 
-`low` looks along the field, where the near ones hide most; `all` sees every instance, a few pixels large. `cloud` is
+`low` looks along the field, where near instances hide most others; `all` sees every instance, a few pixels large. `cloud` is
 another scene: a million instances of a small sphere in a cube, under a lamp far away. Its goal is 60 s with gather.
 """
 import argparse
@@ -78,7 +78,7 @@ def main():
 
 
 def _wait(process):
-    """Waits for this child and returns what it alone used, because RUSAGE_CHILDREN keeps the largest of all children."""
+    """Waits for this child and returns the resources that it used alone, because RUSAGE_CHILDREN keeps the largest of all children."""
     pid, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     return pid, process.returncode, used

@@ -1,9 +1,11 @@
-"""Ends renders at random moments by SIGTERM and SIGKILL in turn, each six times, resumes them with --resume, and tells what is done again.
+"""Ends renders at random moments by SIGTERM and SIGKILL in turn, each six times, resumes them with --resume, and prints how much
+work is done again.
     interruptions.py build/release/tomales [SCENE.rib [KILLS [OPTIONS...]]]
     interruptions.py build/release/tomales --animation
-The second form ends an animation of 20 frames 5 times, and tells how many finished frames are rendered again (--skip-finished). CPU seconds of equal
-work differ on a busy machine, so what is done again is told for a frame: the CPU time of its seven runs beyond that of one, over the sum of what had
-been spent before each signal. The gather rays of each run are printed, except for those that were killed (0)."""
+The second form ends an animation of 20 frames 5 times, and prints how many finished frames are rendered again (--skip-finished).
+CPU seconds of equal work differ on a busy machine, so the work that is done again is given for a whole frame: the CPU time of its
+seven runs beyond that of one run, divided by the sum of the CPU times before each signal. The gather rays of each run are
+printed, except for those that were killed (0)."""
 import json
 import math
 import os
@@ -39,7 +41,8 @@ def used_s(process):
 
 
 def render(picture, *more, after_s=math.inf, number=None):
-    """Sends the signal `number` after so many CPU seconds. Returns CPU seconds, gather rays (None if they are not told), and the exit code."""
+    """Sends the signal `number` after the given CPU seconds. Returns CPU seconds, gather rays (None if they are not reported),
+    and the exit code."""
     stats, before = folder / "stats.json", cpu_s()
     stats.unlink(missing_ok=True)
     process = subprocess.Popen([program, scene.name, "-o", folder / picture, "--one-picture", "-q", "--stats", stats, *options, *more], cwd=scene.parent, stderr=subprocess.DEVNULL)
@@ -83,7 +86,7 @@ def animation(frames=20, kills=5):
         wanted = frames if k == kills else chance.randint(3, 5) + len(before)
         while process.poll() is None and (len(finished()) < wanted or k == kills):
             time.sleep(0.01)
-        time.sleep(0 if k == kills else chance.uniform(0, 0.3))  # This stops within a frame.
+        time.sleep(0 if k == kills else chance.uniform(0, 0.3))  # This stops in the middle of a frame.
         process.send_signal((signal.SIGTERM, signal.SIGKILL)[k % 2])
         process.wait()
         now = finished()

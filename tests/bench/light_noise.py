@@ -111,7 +111,7 @@ def error(program, folder, picture):
 def main():
     programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:]]
     folder = pathlib.Path(tempfile.mkdtemp())
-    # The sky has about 1, and a sun of half a degree brings three times as much light.
+    # The sky has a radiance of about 1, and a sun of half a degree brings three times the light of the sky.
     subprocess.run(["oiiotool", "--pattern", "fill:top=0.5,0.8,1.5:bottom=0.4,0.4,0.3", "2048x1024", "3",
                     "--fill:color=130000,110000,80000", "3x3+700+300", "-o", folder / "sky.exr"], check=True)
     for name, (scene, samples) in SCENES.items():

@@ -3,9 +3,8 @@
     tests/bench/many_lights.py build/release/tomales [--kinds point area unshadowed ...] [--lamps 10 100 ...] [--lights 0 32 ...]
                                [--out FOLDER]
 
-The scene is a town square at night with lamps between its houses. The error is the mean absolute relative error of the picture against that of all
-lamps. Seconds are CPU seconds of the process.
-"""
+The scene is a town square at night with lamps between its houses. The error is the mean absolute relative error of the picture
+against the picture with all lamps. Seconds are CPU seconds of the process. """
 import argparse
 import json
 import pathlib

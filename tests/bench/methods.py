@@ -3,7 +3,7 @@
     tests/bench/methods.py build/release/tomales FOLDER [--scenes cornell interior pool glass ring lamps leaves] [--bounces 4] [--size 48]
                            [--budget 180s] [--errors 10 5 2]
 
-FOLDER gets the scenes and the pages. What has been measured is kept there, so the same command goes on where it stopped.
+FOLDER gets the scenes and the pages. Measurements are kept there, so the same command continues where it stopped.
 """
 import argparse
 import json
@@ -80,7 +80,8 @@ def scene_file(name, folder, size):
 
 
 def seconds_to(points, error):
-    """Returns the CPU seconds of the first point of a curve that has the error, or those on the line from the point before it in logarithms."""
+    """Returns the CPU seconds at which a curve first has the error. They are interpolated in logarithms between the first point
+    that has the error and the point before it."""
     best, before = None, None
     for p in points:
         e, s = max(p["mean_absolute_relative_error"], 1e-9), p["cpu_s"]

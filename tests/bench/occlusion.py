@@ -30,7 +30,7 @@ Polygon "P" [-2000 0 -2000  2000 0 -2000  2000 0 2000  -2000 0 2000]
 SCENES = {
     # This is the form factor of a sphere that touches the horizon: (r / D)^2 cos.
     "sphere of radius 1": (8, "Translate 0 1 0\nRotate 90 1 0 0\nSphere 1 -1 1 360\n", lambda x: (1 + x * x) ** -1.5),
-    # For an endless wall of height 2 it is half of one less the sine of the rest of the quarter circle.
+    # For an endless wall of height 2 it is (1 - cos e) / 2, where e is the elevation of the top of the wall.
     "wall of height 2": (1, 'Polygon "P" [0 0 -2000  0 0 2000  0 2 2000  0 2 -2000]\n', lambda x: 0.5 * (1 - x / math.hypot(x, 2))),
 }
 

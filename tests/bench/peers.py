@@ -2,16 +2,16 @@
 
     tests/bench/peers.py build/release/tomales [--size 512] [--rooms cornell interior] [--programs tomales povray cycles] [--json out.json]
 
-It needs Debian's packages povray blender time python3-numpy python3-openimageio. Each program has one thread. Seconds are user and system time above
-the same program's render of direct light alone (for Cycles, which has no use for that, above its start). The error is the mean of |test - truth| /
-(truth + 1 % of the mean) of the indirect light, over the pixels that see one shape, in windows of 16 x 16 pixels. The truth is our picture with many
-paths, in two halves that tell its noise. That noise is subtracted from every error in squares, because squares of independent noises add up. If a
-program that errs by noise alone was not rendered long enough, the seconds to an error are extrapolated along its last two points and marked ~.
+It needs Debian's packages povray blender time python3-numpy python3-openimageio. Each program has one thread. Seconds are user
+and system time above the same program's render of direct light alone (for Cycles, which has no use for that, above its start).
+The error is the mean of |test - truth| / (truth + 1 % of the mean) of the indirect light, over the pixels that see one shape, in
+windows of 16 x 16 pixels. The truth is our picture with many paths, in two halves from which its noise is estimated. That noise
+is subtracted from every squared error, because squares of independent noises add up. If a program whose only error is noise was
+not rendered long enough, the seconds to an error are extrapolated along its last two points and marked ~.
 
-With --agreement, the differences between the programs are printed first, as a check on the physics. These are the difference of the means and its
-standard error, and the root mean square difference of blocks of 16 x 16 pixels beside the share of noise in it. The latter shows differences of
-single places.
-"""
+With --agreement, the differences between the programs are printed first, as a check on the physics. These are the difference of
+the means and its standard error, and the root mean square difference of blocks of 16 x 16 pixels beside the share of noise in it.
+The latter shows differences at single places. """
 import argparse
 import json
 import math
@@ -117,7 +117,8 @@ def relative(difference, truth):
 
 
 def radiosity(count, error_bound, nearest, bounces):
-    """Returns settings. Rays of level n weigh 2^-n whatever they meet, so the default of adc_bailout, 0.01, would end at 6 bounces."""
+    """Returns settings. Rays of level n have the weight 2^-n whatever they meet, so the default of adc_bailout, 0.01, would end
+    at 6 bounces."""
     return (f"count {count} error_bound {error_bound} nearest_count {nearest} recursion_limit {bounces} gray_threshold 0 normal off low_error_factor 0.5 "
             "pretrace_start 0.08 pretrace_end 0.005 always_sample off brightness 1 adc_bailout 0.0001")
 
@@ -178,7 +179,7 @@ def seconds_to(rows, error):
 
 
 def compare(rows):
-    """Prints the seconds to the asked error."""
+    """Prints the seconds to the requested error."""
     print(f"\n| room | bounces | program | CPU s to {100 * ASKED_ERROR:g} % |\n|---|---|---|---|")
     for key in dict.fromkeys((r["room"], r["bounces"], r["program"]) for r in rows):
         mine = [r for r in rows if (r["room"], r["bounces"], r["program"]) == key]

@@ -3,9 +3,9 @@
     photon_convergence.py TOMALES FOLDER [--scenes pool glass ring] [--photons 1e4 1e5 1e6 1e7] [--seeds 8] [--method progressive]
                           [--truth-photons 1e8] [--truths 4] [--threads 2]
 
-Light bounces at most four times. The truth is the mean of `--gi reference` with several seeds, whose disks have the area of a micropolygon. Errors are rms over all pixels,
-relative to the mean of the truth. The noise is what the seeds tell, the bias what is left when the noise of both is taken off. FOLDER keeps
-pictures for the next call.
+Light bounces at most four times. The truth is the mean of `--gi reference` with several seeds, whose disks have the area of a
+micropolygon. Errors are rms over all pixels, relative to the mean of the truth. The noise is estimated from the differences
+between seeds. The bias is the error that is left when the noise of both is subtracted. FOLDER keeps pictures for the next call.
 """
 import argparse
 import math
@@ -40,7 +40,7 @@ args.folder.mkdir(parents=True, exist_ok=True)
 
 
 def picture(scene, method, photons, seed):
-    """Returns the mean channel of each pixel, in the order of places."""
+    """Returns the mean of the channels of each pixel, in the order of positions."""
     name = f"{scene}-{method}-{photons:g}-{seed}.exr"
     if not (args.folder / name).exists():
         (args.folder / (scene + ".rib")).write_text(caustic_scenes.text(scene, FLOOR))

@@ -1,8 +1,8 @@
 """Compares error functions of the irradiance cache at equal numbers of records (docs/measured/irradiance_cache.md), for indirect light alone, with
 two gathers at every point.
     placement.py TOMALES [--scenes flush_box spot_room box_ball contact grazing] [--size 128] [--samples 1600] [--truth 3000] [--crop X0,X1,Y0,Y1] [--keep FOLDER]
-Corners are pixels that are open to less than 97 % within 0.12 units. `screen` has the records that it asks for at maxerror 1, and the others have as
-many."""
+Corners are pixels whose hemisphere is open to less than 97 % within 0.12 units. `screen` has the records that it asks for at
+maxerror 1, and the others have the same number."""
 import argparse
 import json
 import math
@@ -46,7 +46,7 @@ def gather(scene, out, function, max_error):
 
 
 def with_as_many(scene, out, function, records):
-    """Returns maxerror and the number of records, which is within 1 % or as near as it comes."""
+    """Returns maxerror and the number of records, which is within 1 % of the wanted number, or as near as possible."""
     low, high, at = math.log(0.05), math.log(20), 0.0
     tries = []
     for step in range(12):
@@ -55,7 +55,7 @@ def with_as_many(scene, out, function, records):
         if abs(made - records) <= 0.01 * records:
             break
         low, high = (at, high) if made > records else (low, at)
-        guess = at + math.log(made / records) / 1.2  # Records are about as many as maxerror to the power of -1.2.
+        guess = at + math.log(made / records) / 1.2  # The number of records is about proportional to maxerror to the power of -1.2.
         at = guess if step < 8 and low < guess < high else (low + high) / 2
     _, nearest, made = min(tries)
     if (nearest, made) != tries[-1][1:]:

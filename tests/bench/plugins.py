@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Measures what many shader plugins cost: plugins.py build/release/tomales [--count 300]. It renders the same small squares in turn with a plugin
-each, with a built-in, and with a built-in while the plugins lie unused on the search path. It prints the least seconds of some runs."""
+"""Measures what many shader plugins cost: plugins.py build/release/tomales [--count 300]. It renders the same small squares in
+turn with a plugin each, with a built-in shader, and with a built-in shader while the plugins lie unused on the search path. It
+prints the least seconds of some runs."""
 import argparse
 import pathlib
 import subprocess

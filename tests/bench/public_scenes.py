@@ -1,13 +1,13 @@
-"""Tells how other people's scenes end: exit codes, messages for each scene, and silent failures.
+"""Prints how renders of other people's scenes end: exit codes, messages for each scene, and silent failures.
 
     tests/bench/public_scenes.py build/release/tomales FOLDER ... [--seconds 20] [--list] [--keep FOLDER] [-- -t 1 ...]
 
-Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would do by hand, and is
-stopped after so many CPU seconds (exit code "stopped"). Files of the same bytes count once. All folders of a repository that hold shaders are on the
-path, in TOMALES_SHADERS, unless that is set. What follows -- goes to the renderer. --keep keeps the pictures, as PNG. A message is a line that ends
-with its code in brackets. Each cause counts once, however often it came. A failure is silent if the exit code is 0 and there is no message, though no
-picture was written or every pixel of the first is black or empty. --list prints a line for each scene.
-"""
+Every RIB file in the folders that has a world is rendered at 160 x 120 in a copy of its folder, from where it lies, as one would
+do by hand, and is stopped after the given CPU seconds (exit code "stopped"). Files of the same bytes count once. All folders of a
+repository that hold shaders are on the path, in TOMALES_SHADERS, unless that is set. Arguments after -- go to the renderer. --keep
+keeps the pictures, as PNG. A message is a line that ends with its code in brackets. Each cause counts once, however often it
+came. A failure is silent if the exit code is 0 and there is no message, though no picture was written or every pixel of the first
+is black or empty. --list prints a line for each scene. """
 import argparse
 import collections
 import gzip

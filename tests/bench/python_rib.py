@@ -1,4 +1,4 @@
-"""Measures how many megabytes of a mesh Ri writes in a CPU second: python3 tests/bench/python_rib.py (with numpy too if
+"""Measures how many megabytes of a mesh Ri writes per CPU second: python3 tests/bench/python_rib.py (with numpy too if
 it is installed)."""
 import pathlib
 import random

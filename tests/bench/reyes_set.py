@@ -1,11 +1,11 @@
-"""Times whole renders of generated scenes on one thread, and prints JSON. The scenes are what a Reyes renderer does every day,
-and the two things that classic ones do worst (deep transparency; motion with defocus).
+"""Times whole renders of generated scenes on one thread, and prints JSON. The scenes are everyday work for a Reyes renderer, and
+the two cases in which classic ones are slowest (deep transparency; motion with defocus).
 
     tests/bench/reyes_set.py build/release/tomales [--runs 3] [--only NAME ...] [--keep FOLDER]
 
 `classic_s` has the user seconds of the two open Reyes renderers on a machine of this kind, the better first, for scenes of the
-same description (not the same files). null means that it was stopped after 120 s. `faster` is the better one's time over ours.
-"""
+same description (not the same files). null means that it was stopped after 120 s. `faster` is the time of the better one divided
+by ours. """
 import argparse
 import json
 import math

@@ -2,7 +2,7 @@
 
     tests/bench/scaling.py build/release/tomales [--largest 1e7]
 
-hide_user_s is the user seconds of the process less those of the same scene without geometry.
+hide_user_s has the user seconds of the process minus those of the same scene without geometry.
 """
 import argparse
 import json

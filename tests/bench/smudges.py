@@ -1,4 +1,5 @@
-"""Measures mean error, smudges and perceptual differences of pictures that `--target-error` makes, true and as the audit states them.
+"""Measures mean error, smudges and perceptual differences of pictures that `--target-error` makes: the true figures and those
+that the audit states.
 
     tests/bench/smudges.py build/release/tomales [--scenes interior cornell] [--targets 8 4 2] [--smudges 0 1] [--format 128x96] [--paths 1024] [-t 1]
 

@@ -1,4 +1,4 @@
-"""Measures how often `tomales render --target-error` reaches the error that it is asked for, on the rooms of error_rooms.py.
+"""Measures how often `tomales render --target-error` reaches the requested error, on the rooms of error_rooms.py.
 
     tests/bench/target_rooms.py build/release/tomales [--rooms box_ball hot_spot random1 random2] [--targets 8 4 2 1] [--seeds 2] [--size 64] [--paths 1024]
 

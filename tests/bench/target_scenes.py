@@ -1,14 +1,14 @@
-"""Tests whether `tomales render --target-error` keeps its word. It compares the stated error with the true one, over rooms of tests/stability, of the
-gallery, and generated ones.
+"""Tests whether `tomales render --target-error` reaches its target. It compares the stated error with the true one, over rooms of
+tests/stability, of the gallery, and generated ones.
 
     tests/bench/target_scenes.py build/release/tomales ROWS.jsonl [--scenes cornell lamp_slot generated1] [--targets 8 4 2 1] [--seeds 1 2] [--format 64x48] [--paths 1024]
     tests/bench/target_scenes.py --table ROWS.jsonl
 
-The pictures have all light. The truth of each is the mean of two pictures with other random numbers, by `--gi reference`, or with 1024 samples of
-each light if there is no indirect one. Its noise, which is half of their difference, is subtracted in squares. All pictures share the pixels'
-samples, so edges are the same. Each frame is a line of ROWS.jsonl and is made once, so the same command continues where it stopped. The second form
-prints the table and the totals of docs/measured/error.md.
-"""
+The pictures have direct and indirect light. The truth of each is the mean of two pictures with different random numbers, by `--gi
+reference`, or with 1024 samples of each light if there is no indirect light. Its noise, which is half of their difference, is
+subtracted from squared errors. All pictures share the pixels' samples, so edges are the same. Each frame is a line of ROWS.jsonl
+and is made once, so the same command continues where it stopped. The second form prints the table and the totals of
+docs/measured/error.md. """
 import argparse
 import collections
 import json
@@ -33,7 +33,8 @@ TRUTH_SEED = 1000
 
 
 def generated_room(seed):
-    """Returns random_room() with lamps that have an area, a sky, and other materials. No figure of the program was set by these rooms."""
+    """Returns random_room() with lamps that have an area, a sky, and other materials. No constant of the program was chosen by
+    these rooms."""
     r = random.Random(100 + seed)
     text = random_room(100 + seed)
 
@@ -103,7 +104,7 @@ def percents(values):
 
 
 def told(row):
-    """Tells whether the statement is a number, and not a bound."""
+    """Returns whether the statement is a number, and not a bound."""
     return row["stated"] >= row["noise"]
 
 

@@ -1,5 +1,5 @@
 """Measures what coarse ray geometry costs and saves (docs/measured/rays.md). scenes/film has ray-traced shadows at each rate of Attribute "trace"
-"tessellation", and is compared with rays that meet its displacement at half a pixel a polygon.
+"tessellation", and is compared with rays that meet its displacement as polygons of half a pixel.
     tessellation.py TOMALES [--truth FILE.exr of an earlier run] [--chart FILE.svg]"""
 import argparse
 import json
@@ -26,7 +26,7 @@ def render(folder, tessellation, displacements, pixels, *further):
     rates = folder / "rates.rib"
     rates.write_text(f'Attribute "trace" "float tessellation" [{tessellation}] "int displacements" [{displacements}]\n')
     scene = folder / "scene.rib"
-    scene.write_text(re.sub(r'Attribute "trace" .*\n', "", pathlib.Path(a.scene).read_text()))  # The film asks for rates of its own.
+    scene.write_text(re.sub(r'Attribute "trace" .*\n', "", pathlib.Path(a.scene).read_text()))  # The film sets its own rates.
     out, stats = folder / "out.exr", folder / "stats.json"
     subprocess.run([a.tomales, "render", rates, scene, "--format", pixels, *further, "-o", out, "--stats", stats, "-q", "-t", "1"], check=True, cwd=folder)
     return out, json.loads(stats.read_text())

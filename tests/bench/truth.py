@@ -48,7 +48,8 @@ class Bench:
             (self.folder / f"{name}.sl").write_text(text)
 
     def truth(self, name, share=1):
-        """Returns block means and their standard errors: by a formula, or by the tracer, which are kept beside the scene."""
+        """Returns block means and their standard errors, by a formula or by the tracer. Results of the tracer are kept beside the
+        scene."""
         make, paths = SCENES[name]
         scene = make()
         (self.folder / f"{name}.rib").write_text(scene.text())

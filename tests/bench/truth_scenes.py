@@ -59,7 +59,7 @@ class Scene:
         self.line("aim", *a, *b, *c, *d)
 
     def gloss(self, Ks, roughness):
-        """What follows is plastic of this highlight; Ks 0: matte."""
+        """Makes the following surfaces plastic with this highlight. With Ks 0 they are matte."""
         self.line("gloss", Ks, 8 / roughness)
         self.rib.append(f'Surface "plastic" "Kd" [1] "Ks" [{Ks}] "roughness" [{roughness}]\n')
 
@@ -72,7 +72,7 @@ class Scene:
         self.lights += f'LightSource "environmentlight" "sky" "intensity" [{radiance}] "samples" [64] {more}\n'
 
     def mesh(self, corners, triangles, albedo, rib):
-        """Adds a mesh. The tracer gets triangles, and the renderer gets what they stand for."""
+        """Adds a mesh. The tracer gets triangles, and the renderer gets the primitive that they stand for."""
         for t in triangles:
             self.line("triangle", *(x for i in t for x in corners[i]), albedo, 0)
         self.rib.append(rib)
@@ -224,7 +224,8 @@ BUMPS = """displacement bumps(float amplitude = 0.1; float waves = 9) {
 }
 """
 SHADERS = {"bumps": BUMPS, "glow": GLOW}
-# Each scene has a function that makes it and the tracer's paths a pixel, with which the truth is better than what it judges.
+# Each scene has a function that makes it, and the tracer's paths per pixel. With these the truth is more accurate than
+# the methods that it judges.
 SCENES = {"thin_walls": (thin_walls, 512), "niche": (niche, 2048), "slot": (slot, 2048), "window": (window, 512), "contact": (contact, 512),
           "moving_ball": (moving_ball, 512), "displaced_ball": (displaced_ball, 512), "plastic": (plastic, 512), "mirrored_sky": (lambda: mirrored(lambda s: s.sky(1)), 0),
           "mirrored_dome": (lambda: mirrored(dome), 0)}

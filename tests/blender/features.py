@@ -1,4 +1,4 @@
-"""Tests what needs no other renderer to compare with. It writes FOLDER/features.json.
+"""Tests features that can be checked without another renderer. It writes FOLDER/features.json.
 
 blender -b --factory-startup -P features.py -- FOLDER
 """
@@ -12,7 +12,7 @@ import sys
 import time
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only lends its tools.
+sys.argv = [*sys.argv[: sys.argv.index("--")], "--", arguments[0], "nothing"]  # With this name scenes.py renders nothing, and only provides its functions.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bpy  # noqa: E402
 import numpy  # noqa: E402
@@ -105,7 +105,7 @@ def deformation():
 
 
 def faults():
-    """Tells whether Blender lives on after a fault in the add-on itself, which once crashed it at the second rendering."""
+    """Returns whether Blender goes on after a fault in the add-on itself, which once crashed it at the second rendering."""
     read = passes_module.Passes.read
     passes_module.Passes.read = lambda *_: {}["a fault of ours"]
     scene = empty_scene()
@@ -166,7 +166,8 @@ def unsupported():
 
 
 def cancel():
-    """Stops at the first question whether to. Returns the seconds until the scene, which takes minutes, is given up."""
+    """Stops when the engine first asks whether it should. Returns the seconds until the rendering, which would take minutes, has
+    ended."""
     scene = scenes.area()
     scene.render.engine, scene.tomales.pixel_samples, scene.tomales.light_samples = "TOMALES", 32, 4096
     asked, TomalesEngine._is_given_up = TomalesEngine._is_given_up, lambda self: True

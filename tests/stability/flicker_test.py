@@ -2,15 +2,15 @@
 
 flicker_test.py TOMALES [SIZE SAMPLES FRAMES] [--moves camera,object] [--crop X0,X1,Y0,Y1] [--truth RAYS] [--groups 2,4] [-- OPTIONS OF GATHER]
 
-Let e(t) be the difference of a picture from a gather at every point, over the mean of that truth. Flicker is the rms over pixels and frames of its
-temporal high-pass h(t) = e(t) - (e(t-1) + e(t+1)) / 2, divided by sqrt(3/2) so that independent noise keeps its size. The truth is gathered twice
-with other rays, and each square is the product of the two h, so the noise of the truth does not bias the mean. Two more figures tell how far one
-standard error of that mean reaches. It is estimated from tiles of 8 x 8 pixels, whose errors are taken as independent. "On fixed points" means the
-light that the records of each frame give in the view of the first frame. A static scene should not change it, and it needs no truth, so --truth 0
-leaves the truth out. Caches are made for each frame, or shared: then each frame adds records where those of earlier frames leave points uncovered or
-disagree. With --groups, so many frames in a row also share a cache, and all their pictures use the last state of it, as with `batch --share-records`.
-The CPU seconds of gathering are printed.
-"""
+Let e(t) be the difference of a picture from a gather at every point, over the mean of that truth. Flicker is the rms over pixels
+and frames of its temporal high-pass h(t) = e(t) - (e(t-1) + e(t+1)) / 2, divided by sqrt(3/2) so that independent noise keeps its
+size. The truth is gathered twice with different rays, and each square is the product of the two h, so the noise of the truth does not
+bias the mean. Two more figures are one standard error below and above that mean. It is estimated from tiles of 8 x 8 pixels,
+whose errors are taken as independent. "On fixed points" means the light that the records of each frame give in the view of the
+first frame. A static scene should not change it, and it needs no truth, so --truth 0 leaves the truth out. Caches are made for
+each frame, or shared: then each frame adds records where those of earlier frames leave points uncovered or disagree. With
+--groups, this number of successive frames also shares a cache, and all their pictures use the last state of it, as with `batch
+--share-records`. The CPU seconds of gathering are printed. """
 import argparse
 import pathlib
 import resource
@@ -23,8 +23,8 @@ FOLDER = pathlib.Path(__file__).parent
 sys.path.insert(0, str(FOLDER.parent / "image"))
 from pictures import pixels  # noqa: E402
 
-# This gives as many points as rate 1 gave before ShadingRate was taken as an area (docs/decisions/0050). At rate 1 there are fewer, and flicker is
-# 3.3 % in four frames of 24 x 24.
+# This gives the number of points that rate 1 gave before ShadingRate was an area (docs/decisions/0050). At rate 1 there
+# are fewer, and flicker is 3.3 % in four frames of 24 x 24.
 RATE = 0.66
 SCENE = (FOLDER / "irradiance_cache" / "box_ball.rib").read_text()
 EYE, BALL = "Translate 0 0 3.95", "Translate 0.4 -0.65 -0.3"

@@ -1,7 +1,7 @@
 """Compares the irradiance cache with a gather at every point, on scenes where irradiance caches are known to fail. Only indirect light counts.
 
-irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: larger and finer, it makes the table of docs/measured/irradiance_cache.md.
-"""
+irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: at a larger size with more rays, it makes the table of
+docs/measured/irradiance_cache.md. """
 import json
 import pathlib
 import subprocess
@@ -43,7 +43,8 @@ def render(folder, scene, *arguments):
 
 
 def errors(picture, truth):
-    """Returns two sorted lists: the errors of all colours of all pixels that have light, and what pixels without light were given."""
+    """Returns two sorted lists: the errors of all colours of all pixels that have light, and the light in pixels that should have
+    none."""
     lit = [abs(p - t) / (t + FLOOR) for xy, color in truth.items() for p, t in zip(picture[xy][:3], color[:3]) if max(color[:3]) > 0]
     dark = [max(picture[xy][:3]) for xy, color in truth.items() if max(color[:3]) == 0]
     return sorted(lit), sorted(dark)

@@ -24,7 +24,7 @@ class LabScene:
         self.limit = self.of["limit"][0].rsplit(": ", 1) if "limit" in self.of else None
 
     def warns(self, value):
-        """Tells whether any method reports the code of the limit."""
+        """Returns whether any method reports the code of the limit."""
         scene, statistics = self.folder / "scene.rib", self.folder / "stats.json"
         scene.write_text(self.text.replace("$knob", value).replace("$truth", "0"))
         for method in self.of["method"]:

@@ -1,4 +1,4 @@
-"""Tests that a room with other random numbers has neither other smudges nor specks at four bounces: smudges_test.py TOMALES
+"""Tests that a room has no different smudges and no specks with other random numbers, at four bounces: smudges_test.py TOMALES
 
 Its light comes from a spot as large as a hand, which few rays of a record of further bounces meet by chance.
 """

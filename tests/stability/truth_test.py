@@ -12,8 +12,8 @@ from truth import Bench  # noqa: E402
 from truth_scenes import Scene  # noqa: E402
 
 Scene.size = 64
-# A row has the share of the truth's paths, and the greatest errors of the mean and of the 99th percentile of blocks. The latter is counted beyond
-# three times the noise of the truth.
+# A row has the share of the truth's paths, and the greatest errors of the mean and of the 99th percentile of blocks. Of
+# the latter, three times the noise of the truth is subtracted.
 LIMITS = {("thin_walls", "atlas"): (0.5, 0.05, 0.20), ("thin_walls", "gather"): (0.5, 0.03, 0.05), ("displaced_ball", "gather"): (1, 0.02, 0.10), ("plastic", "gather"): (1, 0.01, 0.05),
           ("mirrored_sky", "reference"): (1, 0.003, 0.01), ("mirrored_dome", "reference"): (1, 0.003, 0.01), ("mirrored_dome", "gather"): (1, 0.003, 0.01)}
 failures = 0

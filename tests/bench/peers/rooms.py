@@ -76,8 +76,9 @@ class Room:
         return (y > 0) & (abs(t * x - cx) < self.lamp.width / 2 + 0.05) & (abs(t - cz) < self.lamp.depth / 2 + 0.05)
 
     def mask(self, size):
-        """Returns the pixels whose points all see one shape that is no lamp, because one ray a pixel and box filters agree there. The slot over the
-        lamp is left out: Cycles' lamps are no obstacles, and POV-Ray's cache carries light into it (twice the mean light too bright)."""
+        """Returns the pixels whose points all see one shape that is no lamp, because one ray per pixel and box filters agree
+        there. The slot over the lamp is left out: Cycles' lamps are no obstacles, and POV-Ray's cache carries light into it
+        (twice the mean light too bright)."""
         edge = math.tan(math.radians(self.fov_deg) / 2)
         parts = []
         for dx in (0.0, 0.5, 1.0):
