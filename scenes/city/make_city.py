@@ -1,8 +1,8 @@
-"""Writes city.rib and the files that it reads: a street that the sun alone lights.
+"""Writes city.rib and the files that it reads: a street whose only light is the sun.
 
 Its houses, cars and trees are NURBS and subdivision surfaces with displacement and textures. Every house, car and tree has a photon map
 of its own, and so have the ground and the pavements, as in "An Irradiance Atlas for Global Illumination in Complex Production Scenes"
-(2004), section 5. The files are the same every time.
+(2004), section 5. Every run writes the same files.
 """
 import argparse
 import math
@@ -185,7 +185,7 @@ class City:
             a, e = rng.uniform(0, 2 * math.pi), rng.uniform(0.1, 1.2)
             end = (x + 1.6 * math.cos(a) * math.cos(e), tall * 0.75 + 1.8 * math.sin(e), z + 1.6 * math.sin(a) * math.cos(e))
             parts.append(tube((x + 0.05, tall * rng.uniform(0.5, 0.78), z), end, 0.05, 0.015, rng.uniform(-0.1, 0.1)))
-        # If there are fewer leaves, each is larger, so that the crown stays as dense.
+        # If there are fewer leaves, each is larger, so that the density of the crown stays the same.
         leaf = self.count(420)
         size = 0.16 * math.sqrt(420 / leaf)
         for shade in range(3):

@@ -15,8 +15,8 @@ from parts import flat, head, numbers, part
 
 random.seed(5)
 HEAD = (-27, 6, 0)
-KINDS = 4  # Each seed is one of so many shapes.
-SOFT = 3   # Hairs that are out of focus are so many times wider and as much more transparent. They look the same and show less grain.
+KINDS = 4  # This is the number of shapes of seeds.
+SOFT = 3   # Hairs that are out of focus are wider by this factor, and their opacity is lower by the same factor. They look the same and show less noise.
 WIND = (1, 0.12, 0.1)
 
 
@@ -73,7 +73,7 @@ def aim(d):
 
 
 def clock():
-    """Returns seeds all over the head, except where the wind has taken them. Those beside the gap are about to go."""
+    """Returns seeds all over the head, except where the wind has taken them. The seeds beside the gap are about to leave."""
     out = []
     for k in range(150):
         y = 1 - 2 * (k + 0.5) / 150
@@ -84,7 +84,7 @@ def clock():
         gone = d[0] * 0.90 + d[1] * 0.36 - d[2] * 0.25
         if gone > 0.62 + random.uniform(-0.12, 0.08):
             continue
-        lean = 4 + 13 * max(0, gone) ** 2  # The wind bends seeds by so many degrees.
+        lean = 4 + 13 * max(0, gone) ** 2  # The wind bends seeds by this number of degrees.
         stir = 1.1 + 2.2 * max(0, gone) ** 2
         turns = [f"Rotate {-angle:.2f} 0 0.2 1" for angle in (lean, lean + stir * random.uniform(0.5, 1.3))]
         out.append(f'TransformBegin {moving(*turns)} {" ".join(aim(d))} Rotate {random.uniform(0, 360):.0f} 0 1 0 ObjectInstance "seed{k % KINDS}" TransformEnd')

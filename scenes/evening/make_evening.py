@@ -137,7 +137,7 @@ for row, (y, above) in enumerate(zip(SHELVES, SHELVES[1:])):
         if (row, column) in ((3, 1), (4, 0), (5, 2)):  # Other things stand in these places.
             end -= 0.34
         part(f"books {row} {column}", 'Surface "cloth_bound"', books(x, end, y, BACK - 0.03, above - y - 0.03))
-FINE = 'Attribute "trace" "float tessellation" [4]'  # Thin things need more polygons for rays.
+FINE = 'Attribute "trace" "float tessellation" [4]'  # Thin objects need more polygons for rays.
 part("vase on a shelf", 'Surface "glaze" Color 0.50 0.42 0.30', f"Translate 1.47 {SHELVES[3]} {BACK - 0.14}", lathe(rounded([(0, 0), (0.04, 0), (0.045, 0.01), (0.08, 0.08), (0.07, 0.15), (0.03, 0.19), (0.04, 0.22), (0.035, 0.222), (0, 0.2)], 3)))
 part("bowl on a shelf", FINE, 'Surface "glaze" Color 0.09 0.22 0.24', f"Translate 0.64 {SHELVES[4]} {BACK - 0.14}", lathe(rounded([(0, 0), (0.04, 0), (0.045, 0.015), (0.09, 0.06), (0.115, 0.11), (0.11, 0.112), (0.08, 0.06), (0, 0.03)], 3)))
 part("globe on a shelf", 'Surface "globe"', f"Translate 2.36 {SHELVES[5] + 0.155} {BACK - 0.15} Rotate 23 0 0 1", "Rotate -90 1 0 0", "Sphere 0.105 -0.105 0.105 360")

@@ -1,4 +1,4 @@
-"""Writes film.rib: a frame of the size of a film's.
+"""Writes film.rib: a frame in the resolution of a film.
 
 A creature like a toad sits on a floor under a sky. Its body is one Catmull-Clark mesh with vertex colours and displaced warts. Nothing is
 random, so the file is the same every time."""
@@ -55,7 +55,8 @@ def numbers(values):
     return " ".join(f"{v:.5g}" for v in values)
 
 
-# Gather rays that miss everything else meet this environment. The indirect light brings it, so direct light needs no rays for it.
+# Gather rays that miss everything else meet this environment. Its light counts as indirect light, so direct light needs
+# no rays for it.
 SKY = """AttributeBegin
 Attribute "identifier" "name" ["sky"]
 Attribute "visibility" "int camera" [0] "int diffuse" [1] "int specular" [0] "int transmission" [0]

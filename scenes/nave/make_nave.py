@@ -16,7 +16,7 @@ BAYS, BAY = 7, 5.0
 HALF, SPRING, RISE = 4.0, 7.0, 4.0     # These are half the width of the nave, the height at which its vaults begin, and their rise.
 WALL, AISLE = 0.7, 7.6                 # These are the thickness of the walls and the x of the outer walls.
 ARCADE, COLUMN = 4.2, 0.42             # These are the height at which the arches between columns begin, and the radius of the columns.
-STEPS = 48                             # An arch has so many straight pieces.
+STEPS = 48                             # This is the number of straight pieces of an arch.
 
 
 def begin(name, *requests):

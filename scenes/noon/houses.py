@@ -45,7 +45,7 @@ def colour(c, shade=1.0):
 
 
 class House:
-    """Builds a house as meshes by material. Only the side towards the street is seen."""
+    """Builds a house as meshes by material. Only the side towards the street is visible."""
 
     def __init__(self, index, wide, near):
         rng = random.Random(500 + index)

@@ -17,7 +17,7 @@ from parts import box, flat, head, lathe, numbers, part, soft
 
 random.seed(12)
 SUN = (-0.44, 0.82, -0.36)             # This direction to the sun stands in noon.h too.
-LEAVES = 64                            # The end of a twig has so many leaves.
+LEAVES = 64                            # This is the number of leaves at the end of a twig.
 KERB, FAR = 7.0, 250.0                 # These are the x of the kerbs and the z at which the street ends.
 
 

@@ -133,7 +133,7 @@ part("bougainvillea, bracts", UNLIT, 'Surface "leaf" "color green" [0.66 0.05 0.
 part("bougainvillea, leaves", UNLIT, 'Surface "leaf" "color green" [0.10 0.19 0.045]', *sprigs("leaves", bougainvillea(75, False)))
 part("cypresses", UNLIT, 'Surface "leaf" "color green" [0.045 0.085 0.04]', *(p for tree in ((-2.6, 15.5, 4.6, 0.55), (-1.0, 17, 5.4, 0.6), (0.4, 15.2, 4.2, 0.5)) for p in sprigs("leaves", cypress(*tree))))
 
-# People have left a few things.
+# People have left a few objects behind.
 part("swim ring", 'Surface "vinyl"', "Translate 1.55 0.045 2.35 Rotate 3 0 0 1 Rotate 20 0 1 0 Rotate -88 1 0 0", "Torus 0.40 0.135 0 360 360")
 part("handrail", 'Surface "steel"', 'Attribute "photon" "string shadingmodel" ["chrome"]', 'Color 0.75 0.76 0.78', 'Attribute "dice" "int roundcurve" [1] Basis "bezier" 3 "bezier" 3',
      *(f'Curves "cubic" [10] "nonperiodic" "P" [{numbers(c for y, z in ((-0.6, 5.05), (-0.1, 5.05), (0.2, 5.05), (0.75, 5.15), (1.05, 5.25), (1.05, 5.7), (1.05, 6.2), (1.05, 6.5), (0.8, 6.6), (0.15, 6.6)) for c in (x, y, z))}] "constant float constantwidth" [0.042]' for x in (-1.72, -2.35)))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes teapots.rib: twelve teapots on three steps. Each is painted by another pattern of shaders/include.
+"""Writes teapots.rib: twelve teapots on three steps. Each is painted by a different pattern from shaders/include.
 
     make_teapots.py > teapots.rib
 
-Units are those of the teapot, which is 3.15 high. x points to the right, y up and z away from the eye.
+The unit is the one of Geometry "teapot", which is 3.15 high. x points to the right, y up and z away from the eye.
 """
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes watch.rib: the movement of a watch. The camera is so near that little of it is in focus.
+"""Writes watch.rib: the movement of a watch. The camera is so close that little of the movement is in focus.
 
     make_watch.py > watch.rib
 

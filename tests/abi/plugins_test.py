@@ -1,4 +1,4 @@
-"""Compiles plugins of ABI 1 against its headers and renders them: they must mean today what they meant then."""
+"""Compiles plugins of ABI 1 against its headers and renders them: they must work today as they did then."""
 import json
 import os
 import pathlib

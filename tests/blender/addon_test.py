@@ -25,7 +25,7 @@ def pairs(figures):
 
 
 class Pictures(unittest.TestCase):
-    """Compares the mean colours of 48 blocks of each picture with Cycles at 256 samples a pixel."""
+    """Compares the mean colours of 48 blocks of each picture with Cycles at 256 samples per pixel."""
 
     @classmethod
     def setUpClass(cls):
@@ -235,7 +235,7 @@ class InstalledAddon(unittest.TestCase):
         program.chmod(0o755)
 
     def engines(self, expression="pass", path=()):
-        """Tells whether the engine is there after the add-on is switched on, and whether it is after the expression too."""
+        """Returns whether the engine is there after the add-on is switched on, and whether it is still there after the expression."""
         script = ("import bpy; bpy.ops.preferences.addon_enable(module='tomales_blender'); there = lambda: print('THERE', any(e.bl_idname == 'TOMALES' for e in bpy.types.RenderEngine.__subclasses__())); "
                   f"there(); preferences = bpy.context.preferences.addons['tomales_blender'].preferences; {expression}; there()")
         said = subprocess.run([os.environ["BLENDER"], "-b", "--factory-startup", "--python-exit-code", "9", "--python-expr", script], capture_output=True, text=True, timeout=300,

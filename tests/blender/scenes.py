@@ -144,7 +144,7 @@ def soft_spot():
 
 
 def camera_shift():
-    """Objects that glow by themselves tell where the camera stands, and how it is turned, shifted and cropped."""
+    """Objects that glow by themselves show where the camera stands, and how it is turned, shifted and cropped."""
     scene = empty_scene()
     for i, (place, color) in enumerate([((-1.5, 0, 0), (1, 0, 0)), ((1, 1, 0.5), (0, 1, 0)), ((0.3, -1, 1.2), (0, 0, 1)), ((0, 3, 0), (1, 1, 0))]):
         glow, _ = material(f"glow{i}", color, "ShaderNodeEmission")
@@ -195,7 +195,7 @@ def picture(name, width, height, color_of, is_float=False):
 
 
 def texture():
-    """A picture in sRGB, which is no mirror image of itself, lies on a plane."""
+    """A picture in sRGB, which is not symmetric, lies on a plane."""
     scene = empty_scene()
     made, shader = material("picture", (1, 1, 1), "ShaderNodeBsdfPrincipled", Roughness=1.0, Specular=0.0)
     node = made.node_tree.nodes.new("ShaderNodeTexImage")
@@ -211,7 +211,7 @@ def texture():
 
 
 def pictures_of_all():
-    """Pictures that are no mirror images of themselves give roughness, metal, alpha and glow, before a floor."""
+    """Pictures that are not symmetric give roughness, metal, alpha and glow, in front of a floor."""
     scene = empty_scene()
     made, shader = material("pictures", (0.8, 0.6, 0.3), "ShaderNodeBsdfPrincipled", **{"Emission Strength": 0.5})
     for socket, of in (("Roughness", lambda u, v: 0.3 + 0.5 * u), ("Metallic", lambda u, v: 1.0 * (v > 0.6)), ("Alpha", lambda u, v: 1.0 * (u + v < 1.4)), ("Emission", lambda u, v: 1.0 * (u < 0.3))):
@@ -356,7 +356,7 @@ def image_node(tree, image, **settings):
 
 
 def waves(u, v):
-    """Returns heights that are no mirror image of themselves, and periodic as pictures are."""
+    """Returns heights that are not symmetric, and that are periodic like pictures."""
     u, v = 2 * math.pi * u, 2 * math.pi * v
     return numpy.repeat((0.5 + 0.25 * numpy.sin(u + v) + 0.25 * numpy.sin(2 * v - u + 1))[..., None], 3, -1)
 

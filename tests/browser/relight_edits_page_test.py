@@ -1,6 +1,6 @@
-"""Tests the page of tomales relight in Chromium, which begins with a scene. It must tell what is being prepared and take other shaders, texts, colours
-and links of lights. It must show variables, regions and ages, gather anew, and get coarse pictures first over a slow link.
-Usage: relight_edits_page_test.py TOMALES CHROMIUM FOLDER"""
+"""Tests the page of tomales relight in Chromium, which begins with a scene. It must say what is being prepared, and accept other
+shaders, strings, colours and links of lights. It must show variables, regions and ages, gather again, and get coarse pictures
+first over a slow link. Usage: relight_edits_page_test.py TOMALES CHROMIUM FOLDER"""
 import pathlib
 import re
 import select
@@ -52,7 +52,7 @@ def card(name):
     return f'[...document.querySelectorAll("#surfaces .surface")].find((c) => c.querySelector("strong").textContent === "{name}")'
 
 
-# The surface gets another shader, and a text.
+# The surface gets another shader, and a string.
 page.run(f"document.getElementById('surfaces').closest('details').open = true; ({card('back wall')}).querySelector('details').open = true")
 page.wait(f"({card('back wall')}).querySelector('input.shader')")
 CHOOSER = f"({card('back wall')}).querySelector('input.shader')"
@@ -74,7 +74,7 @@ suite.expect(page.wait("!document.getElementById('stale').hidden && document.get
 page.run(f"(() => {{ {CHOOSER}.value = 'nonsense'; {CHOOSER}.dispatchEvent(new Event('change')); }})()")
 suite.expect(page.wait(f"document.getElementById('notes').textContent.includes('no such shader') && {CHOOSER}.value === 'stripes'"), "a shader that is none is refused")
 
-# Bounced light of a region is gathered anew.
+# Bounced light of a region is gathered again.
 box = page.run("(() => { const b = document.getElementById('picture').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
 
 

@@ -1,6 +1,6 @@
-"""Tests the page of tomales relight in Chromium. It must load, show the picture, follow its sliders without asking the server, undo, save and reload.
-What it saves must be the picture that `tomales shade --edit` makes. The test leaves pictures of the page in the given folder, to be looked at.
-Usage: relight_page_test.py TOMALES CHROMIUM FOLDER [SHOT.dfb SHOT.icf]"""
+"""Tests the page of tomales relight in Chromium. It must load, show the picture, follow its sliders without asking the server,
+undo, save and reload. What it saves must be the picture that `tomales shade --edit` makes. The test leaves pictures of the page
+in the given folder, for a look by eye. Usage: relight_page_test.py TOMALES CHROMIUM FOLDER [SHOT.dfb SHOT.icf]"""
 import json
 import pathlib
 import select
@@ -49,7 +49,7 @@ def test(kind, query):
     start = time.time()
     page.open(url + query)
     suite.expect(page.wait("!!document.querySelector('#lights .light')"), f"{kind}: the page loads")
-    page.run("document.getElementById('takeOver').click()")  # The page before may have been closed without a word.
+    page.run("document.getElementById('takeOver').click()")  # The previous page may have been closed without a message to the server.
     suite.expect(page.wait(f"{AVERAGE} > 1"), f"{kind}: the first picture is there after {time.time() - start:.2f} s")
     suite.expect(page.wait("document.body.dataset.ready === '1' && document.getElementById('what').textContent === 'up to date'", 300),
                  f"{kind}: all layers are there after {time.time() - start:.2f} s")
@@ -79,7 +79,7 @@ suite.expect(page.wait("!document.getElementById('rib').textContent.includes('in
 page.close()
 page, whole, dark = test("WebGL2", "?webgl")
 
-# The saved edit is what shade makes, and the page loads it again.
+# The saved edit gives the same picture with shade, and the page loads it again.
 page.run("document.getElementById('name').value = 'dark'; document.getElementById('save').click()")
 suite.expect(page.wait("[...document.querySelectorAll('#edits option')].some((o) => o.value === 'dark')"), "the edit is saved")
 page.key("e")
@@ -97,7 +97,7 @@ page.run("document.getElementById('load').click()")
 suite.expect(page.wait("document.getElementById('rib').textContent.includes('intensity')"), "it is loaded again")
 page.key("e")
 
-# A click chooses an object, and the pointer tells its name.
+# A click chooses an object, and the pointer shows its name.
 box = page.run("(() => { const b = document.getElementById('picture').getBoundingClientRect(); return [b.left + 0.3 * b.width, b.top + 0.7 * b.height]; })()")
 page.click(*box)
 suite.expect(page.wait("document.querySelectorAll('#probe .bar').length > 1"), "bars tell what each light brings to the pixel")
@@ -133,7 +133,7 @@ page.run("document.getElementById('takeOver').click()")
 suite.expect(other.wait("!document.getElementById('takeOver').hidden"), "and back")
 other.close()
 
-# Snapshots are kept, and the page looks well.
+# Snapshots are kept, and the page has no flaws in its layout.
 page.key("s")
 page.run(SLIDE % 0.5)
 page.key("w")

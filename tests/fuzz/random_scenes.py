@@ -1,13 +1,12 @@
-"""Renders scenes that nobody would write, and tells whether each ends soon, in little memory and with an exit code.
+"""Renders random scenes that nobody would write, and checks that each ends soon, in little memory and with an exit code.
 
     random_scenes.py TOMALES [--count 200] [--seed 1] [--keep FOLDER] [-- OPTION...]
 
-Each scene is made of requests of the request table (reyes/rib/request_table.cpp). The table's letters say what arguments a request takes, and
-primitives get arrays of lengths that fit. Most numbers are reasonable; some are enormous, tiny, missing or no number. Pictures have 24 x 20 pixels.
-What takes more than 10 CPU s or 1 GB, or ends by a signal or an unknown exit code, is a finding: its number, command and figures are printed, and the
-exit code is 1. The same seed makes the same scenes. Options after `--` are those of `tomales render`; without, each scene draws its own (--gi,
---memory-limit).
-"""
+Each scene is made of requests of the request table (reyes/rib/request_table.cpp). The table's letters say what arguments a
+request takes, and primitives get arrays of lengths that fit. Most numbers are reasonable; some are enormous, tiny, missing or not
+a number. Pictures have 24 x 20 pixels. A scene that takes more than 10 CPU s or 1 GB, or ends by a signal or an unknown exit
+code, is a finding: its number, command and figures are printed, and the exit code is 1. The same seed makes the same scenes.
+Options after `--` are those of `tomales render`; without them, each scene draws its own options (--gi, --memory-limit). """
 import argparse
 import os
 import pathlib
@@ -66,7 +65,7 @@ class Scene:
         self.lines.append(text)
 
     def arguments(self, name):
-        """Returns arguments as the letters of the request's signature ask."""
+        """Returns arguments of the kinds that the letters of the request's signature name."""
         out = []
         letters = SIGNATURES[name]
         if letters.startswith("?"):

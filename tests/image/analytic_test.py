@@ -25,8 +25,8 @@ def render(scene, *options):
 
 
 def rectangle_irradiance(point, normal, corners):
-    """Returns irradiance / (pi * radiance) of a polygon by contour integration (Lambert). The corners are in their order as the
-    point sees them."""
+    """Returns irradiance / (pi * radiance) of a polygon by contour integration (Lambert). The corners are in the order in which
+    the point sees them."""
     directions = []
     for c in corners:
         d = [a - b for a, b in zip(c, point)]

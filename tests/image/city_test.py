@@ -1,4 +1,4 @@
-"""Runs the whole chain of the irradiance atlas over 47 photon maps, on a hundredth of scenes/city, and checks its results."""
+"""Runs the whole chain of the irradiance atlas over 47 photon maps, on scenes/city at scale 0.01, and checks its results."""
 import json
 import pathlib
 import subprocess

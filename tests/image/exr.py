@@ -1,11 +1,11 @@
-"""Reads the OpenEXR files that most tests look at: one part of scanlines, uncompressed or compressed by ZIP. To start oiiotool would take
-several times as long as a small render. The layout is that of "OpenEXR File Layout" (openexr.com)."""
+"""Reads the OpenEXR files that most tests look at: one part of scanlines, uncompressed or compressed by ZIP. Starting oiiotool
+would take several times as long as a small render. The layout is that of "OpenEXR File Layout" (openexr.com)."""
 import itertools
 import pathlib
 import struct
 import zlib
 
-SCANLINES = {0: 1, 2: 1, 3: 16}  # These are the rows of a chunk, by compression: none, ZIPS, ZIP.
+SCANLINES = {0: 1, 2: 1, 3: 16}  # This is the number of rows of a chunk, by compression: none, ZIPS, ZIP.
 MAGIC = b"\x76\x2f\x31\x01"
 PARTS = 0x1000                   # This flag of the version means several parts.
 NOT_SCANLINES = 0xa00 | PARTS    # These mean tiles and deep pixels.
@@ -63,7 +63,7 @@ def _only_header(path):
 
 
 def texts(path):
-    """Returns {attribute: text} of the attributes that are texts."""
+    """Returns {attribute: text} of the attributes that are strings."""
     return {name: value.decode() for name, (kind, value) in _only_header(path).items() if kind == "string"}
 
 

@@ -1,5 +1,5 @@
-"""Lists the gallery's scenes as pictures of one world each, and makes the files that they name: plugins, brick maps, and maps that earlier frames
-render."""
+"""Lists the gallery's scenes as pictures of one world each, and makes the files that they name: plugins, brick maps, and maps
+that earlier frames render."""
 import dataclasses
 import os
 import pathlib
@@ -37,7 +37,7 @@ def pictures_of(path, root):
     """Yields the pictures of a file. Frames that only make maps are no pictures."""
     name = str(path.relative_to(root / "scenes"))
     text = text_of(path).replace("../../docs", str(root / "docs"))
-    text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # Both do the same before the world, unless a test puts something before them.
+    text = re.sub(r"^Transform \[", "ConcatTransform [", text, flags=re.M)  # Both forms mean the same before the world, unless a test puts something before them.
     head, *frames = re.split(r"^(?=FrameBegin)", text, flags=re.M)
     if not frames:
         return [Picture(name, text, "", OPTIONS.get(name, ()))]
@@ -53,7 +53,7 @@ def has_to_be_furnished(text):
 def furnish(tomales, root, text, folder):
     """Makes the files that RIB names and that other commands make."""
     if "plugins:" in text:
-        os.environ["TOMALES_SHADERS"] = "plugins"  # Whoever renders the picture needs this.
+        os.environ["TOMALES_SHADERS"] = "plugins"  # Every render of the picture needs this.
         (folder / "plugins").mkdir()
         for plugin in sorted(set(re.findall(r'"(\w+)"', text))):
             source = root / "docs/rsl_plugins" / f"{PLUGINS.get(plugin, plugin)}.cpp"
@@ -71,7 +71,7 @@ def furnish(tomales, root, text, folder):
 
 
 def store_photons(tomales, scene, shaders):
-    """Stores photons as scenes/pool/README.md says, but fewer."""
+    """Stores photons as scenes/pool/README.md says, but fewer of them."""
     subprocess.run([tomales, "photons", scene.name, "-o", "photons", "--photons", "20000", "--bounces", "3", "--shaders", shaders],
                    cwd=scene.parent, check=True, capture_output=True)
 

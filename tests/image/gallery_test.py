@@ -33,7 +33,8 @@ with tempfile.TemporaryDirectory() as temporary:
         if "photons/" in text:
             store_photons(tomales, folder / scene.name, scene.parent)
         done = run("render", scene.name, "-o", "out.exr", "--format", "96x72", "--pixel-samples", "2x2", "--shaders", scene.parent, cwd=folder)
-        # These messages are expected: four samples a pixel are fewer than most scenes ask for, and balls of a few pixels are polyhedra.
+        # These messages are expected: four samples per pixel are fewer than most scenes ask for, and balls of a few
+        # pixels are polyhedra.
         said = [line for line in done.stderr.splitlines() if "[pixel-noise]" not in line and "[dice-turned]" not in line]
         if done.returncode or done.stdout or said:
             failures.append(f"{name}: exit code {done.returncode}: {done.stdout}{done.stderr}")

@@ -1,5 +1,5 @@
-"""Tests that rays of one glossy point share the light samples and gather rays of that point. More rays must cost no more of these, and
-bring the same light."""
+"""Tests that rays of one glossy point share the light samples and gather rays of that point. More rays must not need more of
+these, and must bring the same light."""
 import json
 import pathlib
 import subprocess

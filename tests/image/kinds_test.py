@@ -1,5 +1,5 @@
-"""Tests that TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive. A polygon must be
-textured alike whichever of its corners comes first.
+"""Tests that TextureCoordinates, Orientation, ReverseOrientation, Sides and Matte mean the same to every kind of primitive. A
+polygon must have the same texture whichever of its corners comes first.
 
     kinds_test.py tomales repository
 """

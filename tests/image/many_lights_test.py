@@ -87,7 +87,7 @@ with tempfile.TemporaryDirectory() as name:
             drawn = render(folder, lamps, world, option=few)
             expect(abs(mean(drawn) / mean(truth) - 1) < 0.005, f"{kind} on {surface}: the mean of the picture stays ({100 * (mean(drawn) / mean(truth) - 1):.2f} %)")
             expect(0 < mean_error(drawn, truth) < 0.05, f"{kind} on {surface}: {100 * mean_error(drawn, truth):.2f} % from all lamps")
-            # Half of the lamps come after the floor and shine on the balls alone. Floor and balls draw from one tree.
+            # Half of the lamps come after the floor and shine only on the balls. Floor and balls draw lamps from the same tree.
             middle = lamps.rindex("AttributeBegin" if "Area" in lamps else "LightSource", 0, lamps.index(f'light" {SIDE * SIDE // 2} "'))
             split = lamps[:middle] + FLOOR.replace("matte", surface) + lamps[middle:] + BALLS
             half, drawn = render(folder, split, "", option=all_of_them), render(folder, split, "", option=few)

@@ -1,4 +1,4 @@
-"""Tests blobbies that merge while the shutter is open: the picture must be the mean of still ones, and have no holes at any size.
+"""Tests blobbies that merge while the shutter is open: the picture must be the mean of still pictures, and have no holes at any size.
 
     merging_test.py tomales
 """

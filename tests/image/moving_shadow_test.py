@@ -1,5 +1,5 @@
-"""Compares shadows and bounced light of moving things with closed forms, under every method. The scenes set nothing but Shutter to get
-motion."""
+"""Compares shadows and bounced light of moving objects with closed forms, for every method. To get motion, the scenes set only
+Shutter."""
 import pathlib
 import subprocess
 import sys
@@ -73,7 +73,8 @@ check(error < 0.02, f"where the camera sees none, rays see none either (off by {
 here = slide("--gi", "gather", "-t", "1")
 check(here == slide("--gi", "gather", "-t", "3", hider='Option "limits" "int[2] bucketsize" [7 5]'), "the same for any threads and buckets")
 
-# A wall stands along the sunbeams, and only the floor before it lights it. A lid comes over that floor at 0.5256 of the shutter.
+# A wall stands along the sunbeams, and is lit only by the floor in front of it. A lid covers that floor from 0.5256 of
+# the shutter on.
 BOUNCE = """Format 24 24 1 PixelSamples 2 2 Shutter 0 1 Projection "orthographic" ScreenWindow -1 1 -1 1 Translate 0 -1 4
 WorldBegin """ + SUN.replace("2 ", '2 "float samples" [1024] ') + """Surface "matte"
 Patch "bilinear" "P" [-3 0 0  3 0 0  -3 3 0  3 3 0]
@@ -91,8 +92,8 @@ def mean(picture):
 
 
 def share(method):
-    """Returns the share of the light without a lid. Records are few, and all rays of one record see the same times, so one seed is off by
-    3 %."""
+    """Returns the share of the light without a lid. There are few records, and all rays of one record see the same times, so one
+    seed is off by 3 %."""
     seeds = [("--gi", method, "--seed", seed) for seed in "123"]
     return sum(mean(rendered(BOUNCE.format(lid=LID), *s)) / mean(rendered(BOUNCE.format(lid=""), *s)) for s in seeds) / 3
 

@@ -39,7 +39,7 @@ AttributeEnd
 Illuminate "lamp" 1
 LightSource "indirectlight" "gi"
 """
-# The front is seen from behind and culled; it is baked all the same.
+# The front is seen from behind and culled. It must be baked all the same.
 BOX = """{surface}
 Color [1 .2 .2] Polygon "P" [-1 -1 -1  -1 -1 1  -1 1 1  -1 1 -1]
 Color [.2 1 .2] Polygon "P" [1 -1 -1  1 -1 1  1 1 1  1 1 -1]
@@ -64,7 +64,7 @@ def expect(condition, message):
 
 
 def render(folder, name, world, surface, rate, *options):
-    """Returns what the program said, and its CPU seconds."""
+    """Returns the program's messages, and its CPU seconds."""
     bakes = surface == "bakes"
     shaders = {"surface": f'Surface "{surface}"', "front": 'Surface "bakes" "front" [1]' if bakes else "", "ball": 'Surface "bakes" "ball" [1]' if bakes else ""}
     (folder / f"{name}.rib").write_text(HEAD.format(size=SIZE, rate=rate, name=name) + (world + BALL).format(**shaders))

@@ -1,14 +1,14 @@
-"""Tests with each scene of the gallery that a picture does not depend on the world's place, size or handedness, on the order and pieces in which it
-is told, or on how it is rendered.
+"""Tests with each scene of the gallery that a picture does not depend on the world's place, size or handedness, on the order and
+the pieces in which it is described, or on how it is rendered.
 
     symmetry_test.py tomales repository [--all] [--share=K/N] [part of a scene's name]
 
-Threads and buckets must leave no trace, and crops only in records of indirect light. Worlds that differ by rounding alone (turned, far away, scaled)
-must agree in almost every pixel. Worlds that draw other random numbers or dice otherwise must agree in means of blocks as two seeds do. These are
-worlds that are mirrored, have another seed or twice the resolution, are told in another order, as one mesh or in halves, or are crops with indirect
-light; with photons, also worlds that are turned or far away. Without --all, only scenes that need no other files are tested, and only for equal bits,
-moving and scaling.
-"""
+Threads and buckets must not change the picture, and crops may change only records of indirect light. Worlds that differ only by
+rounding (turned, far away, scaled) must agree in almost every pixel. Worlds that draw other random numbers or dice differently
+must agree in means of blocks as well as two seeds do. These are worlds that are mirrored, have another seed or twice the
+resolution, are described in another order, as one mesh or in halves, or are crops with indirect light; with photons, also worlds
+that are turned or far away. Without --all, only scenes that need no other files are tested, and only for equal bits, moving and
+scaling. """
 import itertools
 import os
 import pathlib
@@ -35,7 +35,7 @@ failures = []
 FALLS_OFF = re.compile(r'"(pointlight|spotlight|shadowspot|sl_shadowspot|slidespot)"')  # I / d^2 depends on the unit of length.
 IN_UNITS = re.compile(r"DepthOfField|[Dd]isplace|fog|Atmosphere|Interior|filterlight")  # So do lengths that are parameters,
 ON_SCREEN = re.compile(r"ScreenWindow|orthographic")                                      # and windows on the screen.
-BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # The picture is coarser, or has another shape, by so many pixels.
+BY_PIXELS = re.compile(r"motionfactor|DetailRange")                                       # The picture is coarser, or has another shape, by this number of pixels.
 KNOWS_WORLD = re.compile(r'"smoke"')                                                     # Its parameters are heights in the world.
 BY_PARAMETERS = re.compile(r"[Tt]exture|[Dd]isplace|primvar|vertex|varying|wood|grid")  # The halves have other u, v and bounds.
 SLOW = ("furnace", "interior", "rectlight", "ris")
@@ -61,7 +61,7 @@ class Scene:
         return {key: value[:3] for key, value in pixels(out).items()}
 
     def render_moved(self, there, back):
-        """Renders the moved world with maps of its own, because maps know where the world stands."""
+        """Renders the moved world with its own maps, because maps hold positions in the world."""
         picture = self.make_maps(there, back).render(moved(self.text, there, back))
         self.make_maps()
         return picture
@@ -90,8 +90,8 @@ def scaled(text, k):
 
 
 def finer(text):
-    """Keeps the micropolygons as they are at twice the resolution. Outlines of round things are chords, which lose up to 1 % of a picture's light
-    (docs/measured/invariance.md)."""
+    """Keeps the micropolygons as they are at twice the resolution. Outlines of round objects are chords, which lose up to 1 % of
+    a picture's light (docs/measured/invariance.md)."""
     return "ShadingRate 0.25\n" + re.sub(r"^(\s*ShadingRate\s+)([\d.e+-]+)", lambda m: f"{m[1]}{float(m[2]) / 4}", text, flags=re.M)
 
 
@@ -113,7 +113,7 @@ def distance(a, b):
 
 
 def has_records(text):
-    """Tells whether the scene has records of indirect light or of occlusion. RIS scenes ask for them by their integrator."""
+    """Returns whether the scene has records of indirect light or of occlusion. RIS scenes ask for them by their integrator."""
     return any(word in text for word in ("indirectlight", "PxrPathTracer", "maxvariation", '"irradiance" "float maxerror"'))
 
 
@@ -140,7 +140,7 @@ def check(scene):
 
 
 def check_bits(scene, base):
-    """Compares bits. A crop has irradiance records of its own, so scenes with records are not cropped."""
+    """Compares bits. A crop has different irradiance records, so scenes with records are not cropped."""
     crop = [] if has_records(scene.text) else ["--crop", "0.25,0.75,0.25,1"]
     other = scene.render(scene.text, "-t", "3", "--bucket-size", "8", *crop)
     seen = [(x, y) for x, y in base if not crop or WIDTH <= 4 * x < 3 * WIDTH and HEIGHT <= 4 * y]
@@ -150,7 +150,7 @@ def check_bits(scene, base):
 
 def check_means(scene, mean):
     text = scene.text
-    # There are four seeds: means of two may be near to each other by chance, and then a fifth is not.
+    # There are four seeds, because means of two may agree by chance, and then a fifth one would seem to differ.
     pictures = [scene.render(text, "--seed", str(n)) for n in (1, 2, 3, 4)]
     seeds = [blocks(p) for p in pictures]
     noise, noise_of_mean = (statistics.fmean(d * d for d in of)**0.5 for of in zip(*(distance(a, b) for a, b in itertools.combinations(seeds, 2))))

@@ -1,4 +1,5 @@
-"""Compares volumes with closed forms: what boxes and OpenVDB files let through, scatter and shade. It also tests the messages about bad ones."""
+"""Compares volumes with closed forms: the light that boxes and OpenVDB files transmit and scatter, and their shadows. It also
+tests the messages about bad volumes."""
 import math
 import pathlib
 import struct
@@ -98,7 +99,7 @@ with tempfile.TemporaryDirectory() as name:
     air = middle(beside + steps.replace("Interior", "Atmosphere") + black)[0]
     near(middle(beside + steps + BOX.format(1).replace("-2 2 -2 2 1 4", "-9 9 -9 9 0 3.9"))[0], air, 5e-3, "a lamp in it, as in even air")
 
-    # Shadows fall on the volume and by it. Light comes from above, and has gone 1 to 3 units deep.
+    # The volume receives and casts shadows. Light comes from above, and has gone 1 to 3 units deep.
     shadow = 'Attribute "light" "string shadows" ["on"]\nLightSource "distantlight" 1 "to" [0 0 1]\n'
     near(middle(shadow + 'Surface "matte" Color [1 1 1]\nPolygon "P" [-9 -9 9 9 -9 9 9 9 9 -9 9 9]\n' + 'Attribute "visibility" "int camera" [0]\n' + dark + BOX.format(0.5))[0],
          math.exp(-1.5), 1e-3, "it casts a shadow")
@@ -115,7 +116,7 @@ with tempfile.TemporaryDirectory() as name:
     near(middle(lamp + mirror + gas + unseen + BOX.format(0.5))[0], 2 / 4 * 0.6 * -math.expm1(-0.75), 0.02, "a mirror shows it, and nothing behind it")
 
     # The bits are the same for any number of threads, any buckets and any order.
-    # Photons that collide in a medium below smoke have lost there what rays lose.
+    # Photons that collide in a medium below smoke have lost as much power in the smoke as rays lose light.
     smoke = 'AttributeBegin\nInterior "medium" "scattering" [0 0 0] "absorption" [2 2 2]\nVolume "box" [-5 5 5 6 0 10] [0 0 0] "constant float density" [{}]\nAttributeEnd\n'
     near(photons_in_the_medium(smoke.format(1)), math.exp(-2) * photons_in_the_medium(smoke.format(0)), 0.04, "smoke dims the photons of a medium behind it")
 

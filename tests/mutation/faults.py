@@ -3,8 +3,8 @@ import random
 import re
 from dataclasses import dataclass
 
-# Each row has a regular expression and its replacement. clang-format puts spaces around binary operators, which tells them
-# from templates, references and signs. Texts cannot be subtracted.
+# Each row has a regular expression and its replacement. clang-format puts spaces around binary operators, which
+# distinguishes them from templates, references and signs. Strings cannot be subtracted.
 SWAPS = [(re.compile(pattern), new) for pattern, new in (
     (r"(?<= )<(?= )", "<="), (r"(?<= )<=(?= )", "<"), (r"(?<= )>(?= )", ">="), (r"(?<= )>=(?= )", ">"),
     (r"(?<= )==(?= )", "!="), (r"(?<= )!=(?= )", "=="), (r"(?<= )&&(?= )", "||"), (r"(?<= )\|\|(?= )", "&&"),
@@ -16,8 +16,8 @@ NUMBER = re.compile(r"(?<![\w.\[<])(\d+)((?:\.\d+)?[fu]?)\b(?![\w.])")
 CONDITION = re.compile(r"\b(?:if|while) \((?!const |auto |std::optional)")
 # This matches a call, an assignment or a guarded statement, but no declaration.
 STATEMENT = re.compile(r"(?:[\w.:>\[\]*()-]+(?:\(| [-+*/|&]?= |\+\+;)|(?:if|for|while) \().*;$|\+\+\w+;$|(?:continue|break);$")
-# These lines tell what is so at compile time, or what check promises. Where the promise holds, a fault in them changes nothing
-# that runs.
+# These lines state what is true at compile time, or what `check` asserts. Where the assertion holds, a fault in them
+# changes nothing that runs.
 PROMISES = re.compile(r"^\s*(#|using |static_assert|CHECK_\w+\(|friend |template |/\*|\*)")
 
 
@@ -33,7 +33,7 @@ class Fault:
 
 
 def code_of(line):
-    """Returns the line without its comment and with the insides of its texts blanked. Columns stay the same up to the
+    """Returns the line without its comment and with the insides of its strings blanked. Columns stay the same up to the
     comment."""
     blanked = re.sub(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)\'', lambda text: '"' + "_" * (len(text[0]) - 2) + '"', line)
     return blanked.split("//")[0].rstrip()

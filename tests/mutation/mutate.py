@@ -1,4 +1,4 @@
-"""Mutation testing: this puts one-line faults into a unit's sources, and tells which of them its tests do not notice.
+"""Mutation testing: this puts one-line faults into a unit's sources, and lists those that its tests do not notice.
 
     mutate.py UNIT [--faults N] [--seed N] [--build build/release] [--jobs 2]
     mutate.py UNIT --at FILE:LINE --as 'the line with the fault'

@@ -1,4 +1,5 @@
-"""Builds test programs in which one file of a unit has a fault, without building the rest. All else comes from a build folder."""
+"""Builds test programs in which one file of a unit has a fault, without building the rest. Everything else comes from a build
+folder."""
 import concurrent.futures
 import json
 import os
@@ -14,8 +15,8 @@ INCLUDE = re.compile(r'^#include ("([^"]+)"|<[^>]+>)', re.M)
 
 
 def run(command, cwd, limit_s, env=None):
-    """Returns the exit code (None after the time limit) and the output. The limit is one of CPU time, so that a busy machine
-    does not make faults of slow tests. A program that waits has twenty times as long."""
+    """Returns the exit code (None after the time limit) and the output. The limit is one of CPU time, so that slow tests on a
+    busy machine do not count as failures. A program that waits has twenty times this limit by the clock."""
     def limits():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_CPU, (int(limit_s), int(limit_s)))

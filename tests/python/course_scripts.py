@@ -2,10 +2,10 @@
 
     python3 tests/python/course_scripts.py FOLDER [-j 2] [--only PART] [--keep FOLDER]
 
-The folder is copied, because scripts write beside themselves. A script that writes a RIB file instead of rendering has its file rendered. A module
-that scripts import, and that begins no stream itself, passes if it can be imported. PYTHONPATH finds the modules that scripts ask for. A program that
-makes an empty file stands in for oslc, which comes with RenderMan, because the renderer uses other shaders anyway.
-"""
+The folder is copied, because scripts write files beside themselves. A script that writes a RIB file instead of rendering has its
+file rendered. A module that scripts import, and that begins no stream itself, passes if it can be imported. PYTHONPATH finds the
+modules that scripts ask for. A program that makes an empty file stands in for oslc, which comes with RenderMan, because the
+renderer uses other shaders anyway. """
 import argparse
 import concurrent.futures
 import os
@@ -18,7 +18,7 @@ import tempfile
 import time
 
 PICTURES = {".exr", ".tif", ".tiff", ".png"}
-FRAMES = 3  # So many RIB files of a script are rendered, because animations write hundreds.
+FRAMES = 3  # Only this number of RIB files of a script is rendered, because animations write hundreds.
 bindings = pathlib.Path(__file__).resolve().parent.parent.parent / "reyes/bindings/python"
 sys.path.insert(0, str(bindings))
 sys.dont_write_bytecode = True
@@ -79,7 +79,7 @@ def run(script):
 
 
 def all_of(folder):
-    """Runs the scripts of one folder one after the other. Returns how each ends."""
+    """Runs the scripts of one folder one after the other. Returns how each of them ends."""
     ends = []
     for script in sorted(folder.glob("*.py")):
         if given.only in str(script) and "import prman" in script.read_text(errors="replace"):

@@ -1,4 +1,4 @@
-"""Tests that scenes go from Python straight into the renderer, and that pictures, figures and messages come back."""
+"""Tests that scenes go from Python straight into the renderer, and that the module returns pictures, figures and messages."""
 import math
 import os
 import subprocess
@@ -154,7 +154,7 @@ class Rendering(InFolder):
 
 
 class Procedurals(InFolder):
-    """A procedural of a Python function must give the picture of what it describes."""
+    """A procedural of a Python function must give the picture of the objects that it describes."""
 
     def picture(self, describe, *options):
         ri = prman.Ri()

@@ -1,6 +1,6 @@
-"""Renders a moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes. One node is killed while it works, a task is killed,
-and the folder of pictures is read-only for a while. The pictures must still have the bits of one run on one machine. A lost node holds its tasks up
-for about two and a half minutes."""
+"""Renders a moving scene with indirect light, in tiles, on a real Slurm cluster of two nodes. One node is killed while it works,
+a task is killed, and the folder of pictures is read-only for a while. The pictures must still have the bits of one run on one
+machine. A lost node delays its tasks by about two and a half minutes."""
 import json
 import os
 import pathlib
@@ -45,7 +45,7 @@ def wait_for(condition, patience_s):
 
 
 def close_folder(path):
-    """Closes a folder, as a server that is being mended would. Root may not write there either."""
+    """Makes a folder read-only, as a file server does while it is repaired. Root may not write there either."""
     return all(subprocess.run(["mount", *how, path, *to], capture_output=True).returncode == 0
                for how, to in ((["--bind"], [path]), (["-o", "remount,bind,ro"], [])))
 

@@ -42,7 +42,7 @@ PartitionName=render Nodes=n[1-2] Default=YES MaxTime=INFINITE State=UP DefMemPe
 
 
 def missing():
-    """Returns what this machine lacks to be a cluster. The text is empty if it lacks nothing."""
+    """Returns what this machine lacks for a cluster. The text is empty if it lacks nothing."""
     if os.geteuid() != 0:
         return "slurmd must run as root"
     lost = [p for p in ("munged", "slurmctld", "slurmd", "sbatch", "runuser") if not shutil.which(p, path=os.environ["PATH"] + ":/usr/sbin")]
@@ -56,7 +56,7 @@ class Cluster:
         for name in ("munge", "state", "spool/n1", "spool/n2", "log"):
             (self.folder / name).mkdir(parents=True)
         for path in (self.folder, self.folder.parent):
-            path.chmod(0o755)  # The user munge must enter these.
+            path.chmod(0o755)  # The user munge must be able to enter these folders.
         key = self.folder / "munge/munge.key"
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)

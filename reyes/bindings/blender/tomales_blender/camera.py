@@ -45,8 +45,7 @@ def write_camera(ri: tomales.Ri, scene: bpy.types.Scene, camera: bpy.types.Objec
 
 
 def _window(to_screen: Matrix, axis: int, perspective: bool) -> tuple[float, float]:
-    """Returns left and right (or bottom and top) of the picture at depth 1. They are what the matrix sends to -1 and
-    1."""
+    """Returns left and right (or bottom and top) of the picture at depth 1. The matrix maps them to -1 and 1."""
     scale = to_screen[axis][axis]
     shift = to_screen[axis][2] if perspective else -to_screen[axis][3]
     return (shift - 1) / scale, (shift + 1) / scale

@@ -65,7 +65,7 @@ class Reader:
             return constant(socket.default_value)
 
     def is_over_second(self, socket: bpy.types.NodeSocket | None) -> bool:
-        """Tells whether the pictures of an input use the second UV map. An input that mixes both maps counts as
+        """Returns whether the pictures of an input use the second UV map. An input that mixes both maps counts as
         using the first."""
         try:
             maps = self.graph.uv_maps(socket) if socket and self._second is not None else set()

@@ -22,8 +22,7 @@ class Piece:
     moving: tuple[str, ...] = ("P", "N")
 
     def rib(self, *later: Piece) -> bytes:
-        """Returns the piece as binary RIB. It is in motion with the pieces `later` if these differ from it in P and
-        N alone."""
+        """Returns the piece as binary RIB. It is in motion with the pieces `later` if these differ from it only in P and N."""
         out = io.BytesIO()
         ri = tomales.Ri()
         ri.ErrorHandler("abort")
@@ -42,7 +41,7 @@ class Piece:
         return out.getvalue()
 
     def fits(self, other: Piece) -> bool:
-        """Tells whether both pieces have the same requests with equally many values."""
+        """Returns whether both pieces have the same requests with equal numbers of values."""
         return len(self.calls) == len(other.calls) and all(
             a[0] == b[0] and all(numpy.shape(a[2].get(k)) == numpy.shape(b[2].get(k)) for k in {*a[2], *b[2]})
             for a, b in zip(self.calls, other.calls)
@@ -201,7 +200,7 @@ def hair_pieces(obj: bpy.types.Object, system: bpy.types.ParticleSystem) -> list
     if not strands:
         return []
     points = numpy.array(strands, "f4").reshape(-1, 3)
-    # Cycles takes what Blender calls radii for diameters; this taper is that of Cycles.
+    # Cycles takes the values that Blender calls radii as diameters. The taper here is the one of Cycles.
     power = 1 + settings.shape if settings.shape < 0 else 1 / max(1 - settings.shape, 1e-3)
     along = numpy.linspace(1, 0, steps, dtype="f4") ** power
     widths = (settings.tip_radius + (settings.root_radius - settings.tip_radius) * along) * settings.radius_scale

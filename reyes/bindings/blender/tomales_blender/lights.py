@@ -43,7 +43,7 @@ def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: di
     ri.Surface("constant")
 
 
-_SUN_DISTANCE = 1e6  # At this distance a scene of a kilometre sees the sun in one direction, to a milliradian.
+_SUN_DISTANCE = 1e6  # From this distance, all points of a scene of a kilometre see the sun in the same direction to within a milliradian.
 
 
 def write_sun(ri: tomales.Ri, angle: float, energy: float, handle: str, samples: int, common: dict[str, object]) -> None:
@@ -80,15 +80,14 @@ def _write_point(ri: tomales.Ri, light: bpy.types.PointLight | bpy.types.SpotLig
 def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, handle: str, samples: int, common: dict[str, object]) -> None:
     """Writes a lamp that shines along -z of its object, with the size that it has in the world.
 
-    Its radiance is a quarter of the power over the area, as in Cycles. A Lambertian emitter would have 1 / pi in
-    place of a quarter.
-    """
+    Its radiance is a quarter of the power over the area, as in Cycles. A Lambertian emitter would have 1 / pi instead of a
+    quarter. """
     scale = matrix.to_scale()
     width, height = light.size, light.size if light.shape in ("SQUARE", "DISK") else light.size_y
     round_ = light.shape in ("DISK", "ELLIPSE")
     area = width * height * abs(scale.x * scale.y) * (pi / 4 if round_ else 1)
     _emit(ri, handle, light.energy / (4 * max(area, 1e-12)), samples, common)
-    ri.Scale(width / 2, height / 2, -1)  # This mirrors the shape, so that what faces +z faces -z.
+    ri.Scale(width / 2, height / 2, -1)  # This mirrors the shape, so that it faces -z instead of +z.
     if round_:
         ri.Disk(0, 1, 360)
     else:

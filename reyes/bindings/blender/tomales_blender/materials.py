@@ -1,8 +1,7 @@
 """Turns Blender's materials into shaders.
 
-A graph of closures becomes one surface (closures.py), and this becomes one shader, which is usually `disney`. Where
-disney takes no picture, the mean of the picture counts. A shader that the panel names replaces all nodes.
-"""
+A graph of closures becomes one surface (closures.py), and this becomes one shader, which is usually `disney`. Where disney takes
+no picture, the mean of the picture is used. A shader that the panel names replaces all nodes. """
 from __future__ import annotations
 
 import functools
@@ -71,7 +70,7 @@ def look_of(material: bpy.types.Material | None, textures: Textures, reflections
 
 
 def changes(material: bpy.types.Material | bpy.types.World) -> bool:
-    """Tells whether the material may look different in another frame."""
+    """Returns whether the material may look different in another frame."""
     trees = [material.node_tree] if material.use_nodes else []
     for tree in trees:
         trees += [node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree and node.node_tree not in trees]

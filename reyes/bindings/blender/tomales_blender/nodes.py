@@ -24,7 +24,7 @@ class Graph:
         """`pixels` returns an image as a linear array of four channels, or None."""
         self._pixels = pixels
         self._known: dict[tuple, Value] = {}
-        self._groups: list[bpy.types.Node] = []  #: The groups that the walk is inside of, with the innermost last.
+        self._groups: list[bpy.types.Node] = []  #: The groups that contain the current node, with the innermost last.
 
     def of(self, socket: bpy.types.NodeSocket) -> Value:
         """Returns the value that arrives at an input. Raises Unsupported."""

@@ -29,7 +29,7 @@ class Pass:
     kind: str = "COLOR"
     declared: str = ""  #: The type for DisplayChannel, if this is no standard variable of surfaces.
     source: str = ""  #: The parameters of DisplayChannel.
-    is_light: bool = False  #: Cycles keeps the surface's colour apart, so it is divided out.
+    is_light: bool = False  #: Whether the surface's colour is divided out, because Cycles keeps it in a pass of its own.
     own: bool = False  #: Whether this pass must be registered with Blender, because it is not built in.
 
     def plane_names(self) -> list[str]:

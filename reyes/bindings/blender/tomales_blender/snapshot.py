@@ -116,7 +116,7 @@ def _surface(obj: bpy.types.Object, subdivide: bool, warn: Warn) -> Shape | None
 
 
 def ends_in_subdivision(obj: bpy.types.Object) -> bool:
-    """Tells whether the last modifier is a Catmull-Clark subdivision. The engine switches it off during the export."""
+    """Returns whether the last modifier is a Catmull-Clark subdivision. The engine switches it off during the export."""
     last = obj.modifiers[-1] if obj.modifiers else None
     return bool(last and last.type == "SUBSURF" and last.subdivision_type == "CATMULL_CLARK" and last.render_levels > 0)
 

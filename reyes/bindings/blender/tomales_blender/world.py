@@ -28,7 +28,7 @@ SKY_SHADER = """surface tomales_sky(color tint = 1; string map = "";)
 }
 """
 
-SKY_RADIUS_SHARE = 0.9  # This is a share of the far clipping distance.
+SKY_RADIUS_SHARE = 0.9  # This is a fraction of the far clipping distance.
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""Turns the arguments of a call, in any of their usual spellings, into the arguments of a request in RIB."""
+"""Converts the arguments of a call, in any of their usual forms, into the arguments of a request in RIB."""
 from __future__ import annotations
 
 from typing import Any

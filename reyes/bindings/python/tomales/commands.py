@@ -28,7 +28,7 @@ _SHORT = {"output": "-o", "threads": "-t", "quiet": "-q", "verbose": "-v"}
 
 
 class CommandFailed(Exception):
-    """The exit code was neither 0 nor 3. `exit_code` and `messages` tell why."""
+    """The exit code was neither 0 nor 3. `exit_code` and `messages` say why."""
 
     def __init__(self, command: Sequence[str], exit_code: int, messages: list[str]) -> None:
         super().__init__(f"{' '.join(command)} has ended with exit code {exit_code}\n" + "\n".join(messages))

@@ -21,7 +21,7 @@ Answer = Callable[[float, str], bytes]
 
 
 class Destination(Protocol):
-    #: The command that RunProgram requests name, so that the renderer can ask. None means that nobody can be asked later.
+    #: The command that RunProgram requests name, so that the renderer can ask. None means that nothing can answer later.
     relay: str | None
     takes_places: bool  #: Whether the reader's messages use places that the stream carries (#line 12 "scene.py").
 
@@ -85,7 +85,7 @@ class Piped:
         try:
             self._pipe.write(data)
         except BrokenPipeError:
-            pass  # The program has ended. Its exit code will tell why.
+            pass  # The program has ended. Its exit code will say why.
 
     def close(self) -> int:
         try:
@@ -158,7 +158,7 @@ class Renderer(Piped):
         return code
 
     def _serve(self, patience_s: float | None) -> bool:
-        """Answers the questions that have come. Returns whether the pipe takes more."""
+        """Answers the questions that have arrived. Returns whether the pipe accepts more data."""
         ready = [key.fileobj for key, _ in self._selector.select(patience_s)]
         for one in ready:
             if one is self._listener:

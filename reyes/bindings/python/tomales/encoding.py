@@ -45,7 +45,7 @@ def _plain(value: Any) -> str | int | float:
 
 
 def are_strings(values: Values) -> bool:
-    """Tells strings from numbers. Raises TypeError if they are mixed."""
+    """Returns whether the values are strings and not numbers. Raises TypeError if they are mixed."""
     if hasattr(values, "dtype"):
         return False
     strings = sum(isinstance(v, str) for v in values) if str in set(map(type, values)) else 0

@@ -26,7 +26,7 @@ class Signature:
 
     @property
     def makes_handle(self) -> bool:
-        """Tells whether the request defines what its handle names. Other requests refer to what has been defined."""
+        """Returns whether the request defines the object that its handle names. Other requests refer to defined objects."""
         return "h" in self.arguments and self.name not in ("ObjectInstance", "Illuminate")
 
 

@@ -85,7 +85,7 @@ class Ri:
         """Continues the stream of another Begin."""
         self._stream = context if isinstance(context, Stream) else None
 
-    # Calls that are more than a request.
+    # These calls do more than write a request.
 
     def Option(self, name: str, *arguments: Any, **parameters: Any) -> None:
         """Writes an option. Option "rib" instead chooses "format" ("ascii", "binary"), "compression" ("none",
@@ -191,7 +191,7 @@ class Ri:
         elif self._handler == "print":
             print(self.LastError, file=sys.stderr)
 
-    # Type checkers know these constants by name alone.
+    # Type checkers know only the names of these constants.
     def __getattr__(self, name: str) -> Any:
         raise AttributeError(f"Ri has no {name}: neither a request of RIB nor a constant of the RenderMan Interface")
 
