@@ -19,7 +19,7 @@ def flat(points):
 def head(name, about, fov, *requests, size=(1600, 900), samples=4, rate=1, imager="print"):
     """Prints the options of a picture, which becomes a linear EXR and a PNG. The requests are further options and the camera."""
     print(f'''##RenderMan RIB-Structure 1.1
-# {about}. make_{name}.py has written this file; README.md tells about it.
+# {about}. make_{name}.py has written this file; README.md describes it.
 version 3.04
 Format {size[0]} {size[1]} 1
 PixelSamples {samples} {samples}

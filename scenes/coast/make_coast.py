@@ -83,7 +83,7 @@ for near, far in ((900, 1500), (1500, 2600), (2600, 4500), (4500, 9000)):
     sheet(near, far, 8)
 print('''  AttributeEnd
 
-  # The grass before the eye: tufts that are told once, and the ground between them.''')
+  # Grass stands in front of the eye. Its tufts are instances, and there is ground between them.''')
 for k in range(TUFTS):
     tuft(f"tuft{k}")
 print('''  AttributeBegin
@@ -106,7 +106,7 @@ for x, z in sorted(places, key=lambda place: -place[1]):
           f'Scale {size:.2f} {size * random.uniform(0.8, 1.2):.2f} {size:.2f} ObjectInstance "tuft{random.randrange(TUFTS)}" TransformEnd')
 print('''  AttributeEnd
 
-  # Poppies among the grass.
+  # Poppies grow among the grass.
   ObjectBegin "poppy"
     TransformBegin Rotate -90 1 0 0 Paraboloid 0.045 0 0.06 360 TransformEnd
   ObjectEnd
@@ -120,7 +120,7 @@ for _ in range(70):
           f'ObjectInstance "poppy" TransformEnd')
 print('''  AttributeEnd
 
-  # A fence that leads to the sea, and gulls over the bay.
+  # A fence leads to the sea, and gulls fly over the bay.
   AttributeBegin
     Attribute "identifier" "string name" ["fence"]
     Surface "weathered"''')

@@ -16,7 +16,7 @@ from parts import flat, head, numbers, part
 random.seed(5)
 HEAD = (-27, 6, 0)
 KINDS = 4  # This is the number of shapes of seeds.
-SOFT = 3   # Hairs that are out of focus are wider by this factor, and their opacity is lower by the same factor. They look the same and show less noise.
+SOFT = 3   # Hairs out of focus are wider and less opaque by this factor. They look the same and show less noise.
 WIND = (1, 0.12, 0.1)
 
 

@@ -76,7 +76,7 @@ print('''WorldBegin
   LightSource "distantlight" "sun" "from" [0.72 0.56 0.34] "to" [0 0 0] "intensity" [13] "lightcolor" [1 0.80 0.55] "string __category" ["sun"]
   LightSource "occlusionlight" "room" "float samples" [128] "float maxdist" [7] "float maxvariation" [0.02] "lightcolor" [0.21 0.215 0.24]
   Atmosphere "dust"
-  # Stones touch each other, and shading at their corners sends rays from there. These rays start a little away.
+  # Stones touch each other, and shading at their corners sends rays from there. These rays start at a small distance.
   Attribute "trace" "float offset" [0.02]''')
 
 begin("vaults", 'Surface "stone" "color pale" [0.56 0.52 0.45]')

@@ -103,7 +103,7 @@ print('''WorldBegin
   Illuminate "window" 1
   Illuminate "flame" 1
 
-  # The room: a plastered wall behind the table, and dark walls that are not seen.
+  # The room has a plastered wall behind the table, and dark walls that are not visible.
   AttributeBegin
     Attribute "identifier" "string name" ["wall"]
     Surface "plaster"

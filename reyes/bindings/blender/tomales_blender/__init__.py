@@ -1,4 +1,4 @@
-"""Renders Blender's scenes with Tomales: this add-on writes scenes as RIB, and reads the pictures into Blender's passes."""
+"""Renders Blender's scenes with Tomales: it writes scenes as RIB, and reads the pictures into Blender's passes."""
 from __future__ import annotations
 
 import importlib.util

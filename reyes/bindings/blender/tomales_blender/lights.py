@@ -43,7 +43,7 @@ def _emit(ri: tomales.Ri, handle: str, radiance: float, samples: int, common: di
     ri.Surface("constant")
 
 
-_SUN_DISTANCE = 1e6  # From this distance, all points of a scene of a kilometre see the sun in the same direction to within a milliradian.
+_SUN_DISTANCE = 1e6  # From here, a scene of a kilometre sees the sun in one direction to within a milliradian.
 
 
 def write_sun(ri: tomales.Ri, angle: float, energy: float, handle: str, samples: int, common: dict[str, object]) -> None:
