@@ -1,5 +1,5 @@
-# Writes the commit of the sources to OUTPUT, unless it is there already. `git archive` puts the commit in the place of
-# the pattern of `set(commit ...)` (.gitattributes).
+# Writes the commit of the sources to OUTPUT, unless it is there already. `git archive` replaces the pattern in
+# `set(commit ...)` by the commit (.gitattributes).
 cmake_minimum_required(VERSION 3.25)
 set(commit "$Format:%H$")
 if(commit MATCHES "Format")

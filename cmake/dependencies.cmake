@@ -1,4 +1,4 @@
-# The libraries, as Debian 12 packages them. Comments mark where the packages need help.
+# This file finds the libraries as Debian 12 packages them. Comments mark where the packages need help.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
@@ -20,8 +20,8 @@ find_package(OpenEXR 3 CONFIG REQUIRED)
 find_package(TIFF 4.5 REQUIRED)
 find_package(PNG REQUIRED)
 
-# libosd-dev's CMake package stops the configuration over static libraries that it does not contain, so the
-# shared library is named by hand; elsewhere the package's own configuration serves.
+# libosd-dev's CMake package stops the configuration over static libraries that it does not contain, so the shared
+# library is named by hand. Elsewhere the package's own configuration is used.
 find_library(OSD_CPU_LIBRARY osdCPU)
 find_path(OSD_INCLUDE_DIR opensubdiv/bfr/surface.h)
 if(OSD_CPU_LIBRARY AND OSD_INCLUDE_DIR)
@@ -47,11 +47,11 @@ set_target_properties(OpenVDB::openvdb PROPERTIES IMPORTED_LOCATION ${OPENVDB_LI
                       INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${BOOST_INCLUDE_DIR}"
                       INTERFACE_LINK_LIBRARIES "TBB::tbb;Imath::Imath")
 
-# OpenImageIO is found by pkg-config, because the CMake package of libopenimageio-dev wants the programs of
+# OpenImageIO is found by pkg-config, because the CMake package of libopenimageio-dev requires the programs of
 # openimageio-tools and the headers of OpenCV (1 GB).
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 
-# Chart.js draws the pages of `tomales chart`, which have it in themselves.
+# Chart.js draws the curves on the pages of `tomales chart`, which contain it.
 find_file(CHART_JS chart.js/chart.min.js PATHS /usr/share/javascript NO_DEFAULT_PATH)
 if(NOT CHART_JS)
   message(FATAL_ERROR "Chart.js is not found: on Debian, install libjs-chart.js; elsewhere set CHART_JS to its chart.min.js")
@@ -59,7 +59,7 @@ endif()
 file(STRINGS ${CHART_JS} _chart_version REGEX "Chart.js v[0-9.]+" LIMIT_COUNT 1)
 string(REGEX REPLACE ".*Chart.js v([0-9.]+).*" "\\1" _chart_version "${_chart_version}")
 
-# What `tomales --version` tells of each library: its name, version and licence (SPDX).
+# `tomales --version` prints these fields of each library: its name, version and licence (SPDX).
 set(_osd_version "${OpenSubdiv_VERSION}")
 if(NOT _osd_version)
   file(STRINGS ${OSD_INCLUDE_DIR}/opensubdiv/version.h _osd_version REGEX "define OPENSUBDIV_VERSION v")

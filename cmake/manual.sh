@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# manual.sh PROGRAM FOLDER: a page of the manual for the program and for each of its commands, from what --help says, and
-# the completion for bash, into FOLDER. Needs help2man.
+# manual.sh PROGRAM FOLDER writes a page of the manual for the program and for each of its commands, from the output of
+# --help, and the completion for bash into FOLDER. It needs help2man.
 set -euo pipefail
 program=$(realpath "$1") folder=$2
 tools=$(mktemp -d)

@@ -1,8 +1,8 @@
-# What an installation has besides programs and headers, and the packages for Debian that CPack makes of it
-# (`./dev package`): tomales to render, tomales-dev to write plugins, tomales-doc to read.
+# An installation has these files besides programs and headers. CPack makes packages for Debian from it (`./dev
+# package`): tomales for rendering, tomales-dev for writing plugins, and tomales-doc with the guide.
 include(CMakePackageConfigHelpers)
 
-# For plugins: find_package(tomales) has the target tomales::headers, and so has pkg-config tomales.
+# Plugins find the headers by find_package(tomales), whose target is tomales::headers, or by pkg-config tomales.
 if(TARGET tomales)
   add_library(tomales_headers INTERFACE)
   set_target_properties(tomales_headers PROPERTIES EXPORT_NAME headers)
@@ -15,7 +15,7 @@ if(TARGET tomales)
   install(FILES ${CMAKE_BINARY_DIR}/tomales.pc DESTINATION share/pkgconfig COMPONENT dev)
 endif()
 
-# The manual and the completion are made by the program itself.
+# The program itself makes the manual and the completion.
 option(TOMALES_MANUAL "Make and install pages of the manual, and the completion for bash (needs help2man)" OFF)
 if(TOMALES_MANUAL)
   set(manual ${CMAKE_BINARY_DIR}/manual)
@@ -29,7 +29,7 @@ install(FILES README.md DESTINATION share/doc/tomales COMPONENT doc)
 install(DIRECTORY docs DESTINATION share/doc/tomales COMPONENT doc)
 install(DIRECTORY scenes DESTINATION share/doc/tomales/examples COMPONENT doc)
 
-# Debian wants these in every package.
+# Debian requires these files in every package.
 if(TOMALES_MANUAL)
   add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/changelog.gz COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/CHANGELOG.md > ${CMAKE_BINARY_DIR}/changelog.gz DEPENDS CHANGELOG.md)
   add_custom_target(tomales_changelog ALL DEPENDS ${CMAKE_BINARY_DIR}/changelog.gz)

@@ -1,5 +1,5 @@
-# Makes one test of CTest for each suite of a GoogleTest program. gtest_discover_tests makes one for each test, and so many
-# processes would take a tenth of the time of all tests to start.
+# Makes one test of CTest for each suite of a GoogleTest program. gtest_discover_tests makes one for each test. To start
+# this number of processes would take a tenth of the time of all tests.
 
 # The tests are called PREFIX.SUITE. They run with one variable of the environment, NAME=VALUE.
 function(tomales_suites target prefix label environment)
