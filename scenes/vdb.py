@@ -4,7 +4,8 @@
 
 The lattice has side x side x side points at a distance of `size`. The first one lies at `low`. value(x, y, z) is called for each
 point with its indices, which start at 0. `side` is at most 4096. With kind="double" the grid holds doubles, which some tests
-need. """
+need.
+"""
 import struct
 
 # Along each axis, a leaf has 8 points, an inner node has 16 leaves, and an outer node has 32 inner nodes.

@@ -1,7 +1,8 @@
 """Exports frames of 500 moving objects: blender -b --factory-startup -P tests/bench/blender_export.py -- FOLDER
 
 It prints the frames per second over 24 frames in which only transformations change. As in the tests, TOMALES_SOURCE names the
-source tree. """
+source tree.
+"""
 import os
 import sys
 import time

@@ -3,7 +3,8 @@
     tests/bench/budgets.py build/release/tomales [--scenes cornell interior random1] [--budgets 5 10 20] [--seeds 2] [--format 256x256] [--audit] [-v]
 
 A preloaded library, which this script makes with the C compiler, replaces the program's clock by the CPU time of its process.
-With one thread this is the time that the clock would show on a quiet machine. It writes the table in docs/measured/error.md. """
+With one thread this is the time that the clock would show on a quiet machine. It writes the table in docs/measured/error.md.
+"""
 import argparse
 import json
 import os

@@ -5,7 +5,8 @@ glass, above a floor.
 
 The eye looks straight down and does not see the glass or the lamp. Both renderers make a picture for each seed. It prints both
 means, and the differences of blocks of 4 x 4 pixels, with the noise that is estimated from the seeds. FOLDER gets the pictures,
-and keeps those of Cycles for the next call. """
+and keeps those of Cycles for the next call.
+"""
 import argparse
 import json
 import math

@@ -4,7 +4,8 @@
 
 Errors are root mean squares divided by the mean colour, of three pairs of halves. The truth is the mean of 8 pictures with 64
 times the samples of the noisiest level. There are four errors: of the mean of the two halves and of the filtered picture, and
-both as the command states them. """
+both as the command states them.
+"""
 import math
 import pathlib
 import re

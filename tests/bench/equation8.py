@@ -6,7 +6,8 @@ point that uses the whole BRDF of plastic.
 The truth is a surface shader that sends rays over the hemisphere of the bumped normal, and passes the light of each to the
 plastic's diffuse() and specular(). With fewer rays this shader is the other method of the comparison. Errors are rms over the
 pixels of the ball, divided by the mean of the truth's whole light there. CPU seconds are those of the picture with both parts,
-minus those without indirect light. Pictures stay in FOLDER. Needs a C++ compiler. """
+minus those without indirect light. Pictures stay in FOLDER. Needs a C++ compiler.
+"""
 import argparse
 import json
 import math

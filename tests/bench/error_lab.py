@@ -6,7 +6,8 @@ tests/stability/knobs.
 It renders each method of tests/stability/knobs at the first and the last value of its knob, against two truths as `tomales chart
 --stability` makes them, and writes the rows of the table in docs/measured/error.md. A picture is called silent if its true error
 is more than twice the largest stated error, pixel samples included, and more than 5 %, and no warning says that something is
-wrong. """
+wrong.
+"""
 import argparse
 import json
 import pathlib

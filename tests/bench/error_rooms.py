@@ -7,7 +7,8 @@ many paths at every pixel.
 It writes the rows of the table in docs/measured/error.md. The truth is the mean of two pictures by `--gi reference`. Its own
 noise, which is half of their difference, is subtracted from squared errors. hot_spot gets four times the paths. With settings of
 `--gi none` direct light is compared, against 1024 light samples. Otherwise indirect light alone is compared, so that its error is
-the error of the picture. """
+the error of the picture.
+"""
 import argparse
 import json
 import math

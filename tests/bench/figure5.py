@@ -5,7 +5,8 @@
 (d) is equation 5 with kappa = 0.5, and (e) is the same with bumped normals in equation 4. (f) is the error function of Ward and
 Heckbert 1992 with the same number of records as (d); it has no limits in pixels and refines nothing. "limited" is (f) with R- and
 R+ of equation 3, and has the same number of records. This needs ImageMagick. FOLDER gets pictures and figure5.png, whose rows are
-picture, closeup, (d) and (e), (f), limited. """
+picture, closeup, (d) and (e), (f), limited.
+"""
 import argparse
 import math
 import pathlib

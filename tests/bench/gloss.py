@@ -7,7 +7,8 @@
 Noise is the root mean square of the difference of two light seeds on the knot, divided by sqrt(2) and by the mean colour there.
 Colours above 1 count as 1. Time at equal noise is CPU seconds times the square of the noise, as a multiple of plastic's. For the
 gallery, this counts the pixels that are brighter than 10 times the median of their 5 x 5 neighbours. It lists those that are also
-more than twice as bright as with another light seed, because those are not thin bright objects. """
+more than twice as bright as with another light seed, because those are not thin bright objects.
+"""
 import math
 import pathlib
 import re

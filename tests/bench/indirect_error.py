@@ -8,7 +8,8 @@ square windows whose places depend on nothing but their number (Halton's points)
 their pixels count. FOLDER/SCENE keeps the reference, so that the next call is quick, and gets error.png. The error is |test -
 reference| / (reference + 1 % of its mean) of the indirect light, over the colours of all pixels where the reference is not black.
 It is also given with a tenth of the mean and with 0.01, which `tomales chart` uses. `noise` is the noise of the reference itself,
-from the spread of its batches. Every figure contains this noise. """
+from the spread of its batches. Every figure contains this noise.
+"""
 import argparse
 import dataclasses
 import json

@@ -4,7 +4,8 @@
                                [--out FOLDER]
 
 The scene is a town square at night with lamps between its houses. The error is the mean absolute relative error of the picture
-against the picture with all lamps. Seconds are CPU seconds of the process. """
+against the picture with all lamps. Seconds are CPU seconds of the process.
+"""
 import argparse
 import json
 import pathlib

@@ -11,7 +11,8 @@ not rendered long enough, the seconds to an error are extrapolated along its las
 
 With --agreement, the differences between the programs are printed first, as a check on the physics. These are the difference of
 the means and its standard error, and the root mean square difference of blocks of 16 x 16 pixels beside the share of noise in it.
-The latter shows differences at single places. """
+The latter shows differences at single places.
+"""
 import argparse
 import json
 import math

@@ -7,7 +7,8 @@ do by hand, and is stopped after the given CPU seconds (exit code "stopped"). Fi
 repository that hold shaders are on the path, in TOMALES_SHADERS, unless that is set. Arguments after -- go to the renderer. --keep
 keeps the pictures, as PNG. A message is a line that ends with its code in brackets. Each cause counts once, however often it
 came. A failure is silent if the exit code is 0 and there is no message, though no picture was written or every pixel of the first
-is black or empty. --list prints a line for each scene. """
+is black or empty. --list prints a line for each scene.
+"""
 import argparse
 import collections
 import gzip

@@ -5,7 +5,8 @@ the two cases in which classic ones are slowest (deep transparency; motion with 
 
 `classic_s` has the user seconds of the two open Reyes renderers on a machine of this kind, the better first, for scenes of the
 same description (not the same files). null means that it was stopped after 120 s. `faster` is the time of the better one divided
-by ours. """
+by ours.
+"""
 import argparse
 import json
 import math

@@ -8,7 +8,8 @@ The pictures have direct and indirect light. The truth of each is the mean of tw
 reference`, or with 1024 samples of each light if there is no indirect light. Its noise, which is half of their difference, is
 subtracted from squared errors. All pictures share the pixels' samples, so edges are the same. Each frame is a line of ROWS.jsonl
 and is made once, so the same command continues where it stopped. The second form prints the table and the totals of
-docs/measured/error.md. """
+docs/measured/error.md.
+"""
 import argparse
 import collections
 import json

@@ -6,7 +6,8 @@ Each scene is made of requests of the request table (reyes/rib/request_table.cpp
 request takes, and primitives get arrays of lengths that fit. Most numbers are reasonable; some are enormous, tiny, missing or not
 a number. Pictures have 24 x 20 pixels. A scene that takes more than 10 CPU s or 1 GB, or ends by a signal or an unknown exit
 code, is a finding: its number, command and figures are printed, and the exit code is 1. The same seed makes the same scenes.
-Options after `--` are those of `tomales render`; without them, each scene draws its own options (--gi, --memory-limit). """
+Options after `--` are those of `tomales render`; without them, each scene draws its own options (--gi, --memory-limit).
+"""
 import argparse
 import os
 import pathlib

@@ -8,7 +8,8 @@ rounding (turned, far away, scaled) must agree in almost every pixel. Worlds tha
 must agree in means of blocks as well as two seeds do. These are worlds that are mirrored, have another seed or twice the
 resolution, are described in another order, as one mesh or in halves, or are crops with indirect light; with photons, also worlds
 that are turned or far away. Without --all, only scenes that need no other files are tested, and only for equal bits, moving and
-scaling. """
+scaling.
+"""
 import itertools
 import os
 import pathlib

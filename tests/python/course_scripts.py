@@ -5,7 +5,8 @@
 The folder is copied, because scripts write files beside themselves. A script that writes a RIB file instead of rendering has its
 file rendered. A module that scripts import, and that begins no stream itself, passes if it can be imported. PYTHONPATH finds the
 modules that scripts ask for. A program that makes an empty file stands in for oslc, which comes with RenderMan, because the
-renderer uses other shaders anyway. """
+renderer uses other shaders anyway.
+"""
 import argparse
 import concurrent.futures
 import os

@@ -10,7 +10,8 @@ whose errors are taken as independent. "On fixed points" means the light that th
 first frame. A static scene should not change it, and it needs no truth, so --truth 0 leaves the truth out. Caches are made for
 each frame, or shared: then each frame adds records where those of earlier frames leave points uncovered or disagree. With
 --groups, this number of successive frames also shares a cache, and all their pictures use the last state of it, as with `batch
---share-records`. The CPU seconds of gathering are printed. """
+--share-records`. The CPU seconds of gathering are printed.
+"""
 import argparse
 import pathlib
 import resource

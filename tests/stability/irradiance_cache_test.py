@@ -1,7 +1,8 @@
 """Compares the irradiance cache with a gather at every point, on scenes where irradiance caches are known to fail. Only indirect light counts.
 
 irradiance_cache_test.py TOMALES [SIZE SAMPLES [ARGUMENTS...]]: at a larger size with more rays, it makes the table of
-docs/measured/irradiance_cache.md. """
+docs/measured/irradiance_cache.md.
+"""
 import json
 import pathlib
 import subprocess

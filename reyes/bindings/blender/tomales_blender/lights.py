@@ -81,7 +81,8 @@ def _write_area(ri: tomales.Ri, light: bpy.types.AreaLight, matrix: Matrix, hand
     """Writes a lamp that shines along -z of its object, with the size that it has in the world.
 
     Its radiance is a quarter of the power over the area, as in Cycles. A Lambertian emitter would have 1 / pi instead of a
-    quarter. """
+    quarter.
+    """
     scale = matrix.to_scale()
     width, height = light.size, light.size if light.shape in ("SQUARE", "DISK") else light.size_y
     round_ = light.shape in ("DISK", "ELLIPSE")

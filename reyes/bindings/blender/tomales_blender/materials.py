@@ -1,7 +1,8 @@
 """Turns Blender's materials into shaders.
 
 A graph of closures becomes one surface (closures.py), and this becomes one shader, which is usually `disney`. Where disney takes
-no picture, the mean of the picture is used. A shader that the panel names replaces all nodes. """
+no picture, the mean of the picture is used. A shader that the panel names replaces all nodes.
+"""
 from __future__ import annotations
 
 import functools
