@@ -12,7 +12,7 @@ bad = []
 
 
 def exists(path):
-    """Tells whether a path of the tree exists. docs/decisions/0040 stands for the page of that number."""
+    """Returns whether a path of the tree exists. docs/decisions/0040 stands for the page of that number."""
     number = re.fullmatch(r"docs/decisions/(\d{4})", path)
     return len(list(root.glob(f"{path}-*.md"))) == 1 if number else (root / path).exists()
 

@@ -22,7 +22,7 @@ def unit_of(path):
 
 
 def is_private(path, unit):
-    """Tells whether a path is in the folder of the unit."""
+    """Returns whether a path is in the folder of the unit."""
     return path.startswith(unit + "/")
 
 

@@ -203,13 +203,13 @@ def places(x0, x1, z0, z1, apart, tries):
 
 
 def is_free(x, z, margin):
-    """Tells whether a place lies off the path, outside the clearing, and not between the eye and the stag."""
+    """Returns whether a place lies off the path, outside the clearing, and not between the eye and the stag."""
     cx, cz, radius = CLEARING
     return abs(x - path(z)) > margin and math.hypot(x - cx, z - cz) > radius and not (z < STAG[1] and abs(x - z * STAG[0] / STAG[1]) < 0.8 + 0.06 * z)
 
 
 def shades(x, z):
-    """Tells whether a tree may stand at a place. Sunlight comes in through the gaps between such places."""
+    """Returns whether a tree may stand at a place. Sunlight comes in through the gaps between such places."""
     across = x - z * SUN[0] / SUN[2]
     return z < 11 or math.sin(1.25 * across + 1.4) + 0.5 * math.sin(0.61 * across) < 0.45
 

@@ -18,7 +18,8 @@ KINDS = {"sedan": (SEDAN, 'Surface "carbody" "float flake" [FLAKE]', 1.32, -1.28
 
 
 def ring(z, w, low, belt, top):
-    """Returns a cross-section as a ring of control points. They are those of one half, from the bottom to the top, and their mirror images."""
+    """Returns a cross-section as a ring of control points. They are the points of one half, from the bottom to the top, and their
+    mirror images."""
     cabin = max(0, top - belt - 0.09)
     lean = w * (1 - 0.20 * min(1, cabin / 0.45)) * (1 if cabin else 0.93)
     shoulder = belt + 0.02

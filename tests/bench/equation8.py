@@ -62,7 +62,7 @@ folder = options.folder.resolve()
 
 
 def on_ball(x, y):
-    """Tells whether a pixel shows the ball, except for a rim of a pixel."""
+    """Returns whether a pixel shows the ball, except for a rim of a pixel."""
     half = options.size / 2
     unit = half / math.tan(math.radians(FOV / 2))
     return math.hypot(x + 0.5 - half, y + 0.5 - half + unit * BALL / EYE) < unit * RADIUS / math.sqrt(EYE ** 2 - RADIUS ** 2) - 1.5

@@ -110,7 +110,7 @@ class Pictures(unittest.TestCase):
         self.expect_blocks("metal", 0.03)
 
     def test_hair_is_as_thick(self):
-        """Blender scatters strands anew for each rendering, so single blocks differ."""
+        """Blender scatters strands again for each rendering, so single blocks differ."""
         self.expect_mean("hair", 0.05)
 
     def test_instances_stand_in_their_places(self):

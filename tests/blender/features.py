@@ -178,7 +178,7 @@ def cancel():
 
 
 def progress():
-    """Returns the progress that the engine tells while it renders. The shares rise to the whole."""
+    """Returns the progress that the engine reports while it renders. The shares rise to the whole."""
     scene = scenes.area()
     scene.render.engine = "TOMALES"
     shares, warnings = [], []

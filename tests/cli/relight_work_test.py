@@ -1,5 +1,5 @@
-"""Tests the order of work of tomales relight: coarse pictures come first. It also tests regions, variables, bounced light that is gathered anew,
-blocks that fit a slow link, and a scene that is hidden and gathered while the page waits."""
+"""Tests the order of work of tomales relight: coarse pictures come first. It also tests regions, variables, bounced light that is
+gathered again, blocks that fit a slow link, and a scene that is hidden and gathered while the page waits."""
 import json
 import pathlib
 import struct
@@ -175,7 +175,7 @@ while time.time() < end:
     if told["ready"]:
         break
     heard.add(told["doing"])
-    time.sleep(0.02)  # The server refuses more questions a second than a page has.
+    time.sleep(0.02)  # The server refuses more questions per second than a page has.
 suite.expect(page == 200 and "gathering" in heard, f"the page is there first, and tells what is done {sorted(heard)}")
 suite.expect(server.json("scene")["width"] == 320, "then the scene")
 suite.expect(server.post("end", {})[0] == 200 and server.process.wait(20) == 0, "the page ends it")

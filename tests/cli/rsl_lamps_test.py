@@ -74,7 +74,8 @@ t.write("normals.sl", 'light normals() { normal n = ntransform("world", normaliz
 even = render("even", lamp("even"))
 expect("even", even, lambda px, py, square: 2 / square, "is the mean of lights all over the lamp")
 expect("even_back", render("even_back", lamp("even", points=UP)), lambda px, py, square: 2 / square, "from both sides, as illuminate() names no cone")
-# The mean of cosine / distance^2 over a sphere is that of its centre (Newton's shell theorem), whichever half of it is seen.
+# The mean of cosine / distance^2 over a sphere equals the value at its centre (Newton's shell theorem), whichever half
+# of it is seen.
 ball_lamp = '''AttributeBegin Attribute "visibility" "int camera" [0] AreaLightSource "even" 1 "float __samples" [256]
 Translate 0 0 -1.5 %sSphere .5 -.5 .5 360 AttributeEnd Illuminate 1 1 ShadingRate .02'''
 at = [2 * (k + 0.5) / SIZE - 1 for k in range(SIZE)]
@@ -141,7 +142,8 @@ hidden = render("hidden", lamp("even") + '\nAttributeBegin Surface "constant" Op
 t.expect(max(p[0] for p in hidden.values()) == 0, "  what is between throws a shadow")
 t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp("still", "")), "-o", "still.exr"], 0, "not an area light; it shines without its geometry")
 
-# Photons pass the lamp that they leave, as shadow rays do: half of those of a ball that shines all round begin inwards.
+# Photons pass through the lamp that they leave, like shadow rays. Half of the photons of a ball that shines in all
+# directions begin inwards.
 walls = ('AttributeBegin Attribute "visibility" "int camera" [0] Patch "bilinear" "P" [1 1 0  1 -1 0  1 1 -3  1 -1 -3]'
          ' Patch "bilinear" "P" [-1 1 0  -1 -1 0  -1 1 -3  -1 -1 -3] AttributeEnd')
 round_lamp = SCENE % (LAMP % ("Translate 0 0 -1.5 ", "even", "", "") + "\n" + walls)

@@ -74,7 +74,7 @@ for name, primitive in PRIMITIVES.items():
         expect("reference", f'Surface "reference" {primitive} "{kind} __Pref" [{values}]', lambda x, y: (3 + x, 3 + y, 3),
                f"{kind} on {name} is taken for a parameter of type point")
 
-# RISpec 3.2, section 11: a value of a primitive overrides that of the request, whatever the shader says of its detail.
+# RISpec 3.2, section 11: a value of a primitive overrides the value of the request, whatever detail the shader declares.
 for kind, values in (("constant", "1 0 0"), ("uniform", "1 0 0"), ("varying", "1 0 0 " * 4), ("vertex", "1 0 0 " * 4)):
     expect("told", f'Surface "told" {PATCH} "{kind} color tint" [{values}]', lambda x, y: (1, 0, 0), f"{kind} color for a uniform parameter")
 expect("told", f'Surface "told" {PATCH} "varying color tint" [0 0 0  1 0 0  0 1 0  1 1 0]', lambda x, y: ((1 + x) / 2, (1 - y) / 2, 0),
@@ -101,7 +101,8 @@ t.write("rough.sl", "displacement rough(float heights[2] = {9, 9}) { P += (heigh
 expect("rough", f'Attribute "displacementbound" "sphere" [2] Displacement "rough" Surface "rough2" {PATCH} "varying float[2] heights" [0 1 .5 1 0 1 .5 1]',
        lambda x, y: (4 + (1 + x) / 4,) * 3, "varying float[2] of a displacement")
 
-# A matrix leads from the object's space, whose origin is 3 before the camera, as one of the request leads from the shader's.
+# A matrix of a primitive leads from the object's space, whose origin is 3 in front of the camera. A matrix of the
+# request leads from the shader's space.
 t.write("led.sl", "surface led(matrix mm = 0) { Oi = 1; Ci = color(comp(mm, 3, 0), comp(mm, 3, 1), comp(mm, 3, 2)); }\n")
 MOVED = "[1 0 0 0 0 1 0 0 0 0 1 0 %s 2 3 1]"
 expect("led", f'Surface "led" "matrix mm" {MOVED % 1} {PATCH}', lambda x, y: (1, 2, 6), "a matrix of the request")
@@ -129,7 +130,7 @@ for space, point, vector in (('"current"', (1, 2, 3), (1, 2, 3)), ('"world"', (1
     for which, wanted in enumerate((point, vector, vector)):
         expect(name, f'Translate 5 0 0 Rotate 90 0 0 1 Surface "{name}" "float which" [{which}] Rotate -90 0 0 1 Translate -5 0 0 {PATCH}',
                lambda x, y: wanted, f'a default {("point", "vector", "normal")[which]} {space} (1, 2, 3)')
-# A matrix holds the space: transform() by that of "current" changes nothing.
+# A matrix holds the space: transform() by the matrix of "current" changes nothing.
 expect("in_current", f'Translate 5 0 0 Rotate 90 0 0 1 Surface "in_current" "float which" [3] Rotate -90 0 0 1 Translate -5 0 0 {PATCH}', lambda x, y: (1, 2, 3),
        'a default matrix "current" 1')
 t.write("moons.sl", "surface moons(uniform point shade = point \"current\" (.6, .5, 0)) { float d = distance(shade, (s, t, 0)); Oi = 1; Ci = d; }\n")

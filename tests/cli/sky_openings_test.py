@@ -49,7 +49,7 @@ mean = [sum(p.values()) for p in (truth, found, off)]
 t.expect(abs(mean[1] / mean[0] - 1) < 0.02, f"the light is the same: {mean}")
 errors = [noise(p, truth) for p in (found, off, named)]
 t.expect(errors[0] < 0.4 * errors[1], f"there is less noise: {errors}")
-# The border of the found opening is not exactly that of the window, so some samples meet the wall.
+# The border of the found opening is not exactly the border of the window, so some samples meet the wall.
 t.expect(errors[0] < 2 * errors[2], f"not much more than with a named portal: {errors}")
 _, open_air = picture(room(depth=0))
 t.expect("light-openings" not in open_air, "a wall in the open has none")

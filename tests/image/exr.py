@@ -1,5 +1,5 @@
 """Reads the OpenEXR files that most tests look at: one part of scanlines, uncompressed or compressed by ZIP. Starting oiiotool
-would take several times as long as a small render. The layout is that of "OpenEXR File Layout" (openexr.com)."""
+would take several times as long as a small render. "OpenEXR File Layout" (openexr.com) describes the layout."""
 import itertools
 import pathlib
 import struct

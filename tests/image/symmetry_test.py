@@ -108,7 +108,7 @@ def differing(a, b):
 
 
 def distance(a, b):
-    """Returns the root mean square difference between means of blocks, and that between their sums."""
+    """Returns the root mean square difference between means of blocks, and the difference between their sums."""
     squares = [(p - q)**2 for u, v in zip(a, b) for p, q in zip(u, v)]
     return statistics.fmean(squares)**0.5, abs(statistics.fmean(sum(u) - sum(v) for u, v in zip(a, b))) / 3
 

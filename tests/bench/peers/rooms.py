@@ -69,7 +69,7 @@ class Room:
         return which
 
     def over_lamp(self, x, y):
-        """Tells whether rays through (x, y) of the plane z = 1 meet the ceiling over the lamp, or less than 5 cm beside it."""
+        """Returns whether rays through (x, y) of the plane z = 1 meet the ceiling over the lamp, or less than 5 cm beside it."""
         top = max(corner[1] for q in self.quads for corner in q.corners)
         t = top / numpy.where(y > 0, y, 1e-30)
         cx, _, cz = self.lamp.centre
