@@ -136,7 +136,7 @@ t.expect_run("and is tried again", ["batch", "retry", "two.batch"], 0, "finished
 # The program takes what Slurm grants.
 grant = {"SLURM_JOB_ID": "1", "SLURM_CPUS_PER_TASK": "1", "SLURM_MEM_PER_CPU": "500"}
 os.environ.update(grant)
-t.expect_run("a job takes what it was granted", ["two.rib", "-o", "grant.#.exr", "-v", "--stats", "grant.json"], 0, "sets -t 1 and --memory-limit 400M")
+t.expect_run("a job takes what it was granted", ["two.rib", "-o", "grant.#.exr", "-v", "--stats", "grant.json"], 0, "set -t 1 and --memory-limit 400M")
 t.expect(json.loads((t.folder / "grant.json").read_text())["threads"] == 1, "its threads are as many")
 t.expect_run("or what is asked for", ["two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M"], 0)
 t.expect("slurm-grant" not in t.run("two.rib", "-o", "grant.#.exr", "-v", "-t", "2", "--memory-limit", "900M").stderr, "which is not told")

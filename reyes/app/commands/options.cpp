@@ -135,7 +135,7 @@ void addRunOptions(CLI::App& app, RenderSettings& s) {
       "-q", [&s] { s.report.verbosity = Log::Verbosity::Quiet; }, "No warnings");
   app.add_flag_callback(
       "-v", [&s] { s.report.verbosity = Log::Verbosity::Verbose; },
-      "Print more, also which files each frame wrote and how much time and memory it took");
+      "Print more, such as the files, time and memory of each frame");
 }
 
 void addWatching(CLI::App& app, RenderSettings& s) {

@@ -52,8 +52,7 @@ void addTrust(CLI::App& app, Trust& trust) {
 }
 
 void addShaderFolders(CLI::App& app, std::string& folders) {
-  app.add_option("--shaders", folders,
-                 "Folders of shaders, separated by colons, whose plugins you trust; they come before all others")
+  app.add_option("--shaders", folders, "Folders (A:B) of shaders to search first; their plugins are trusted")
       ->type_name("FOLDERS");
   addSearchPath(app);
 }
