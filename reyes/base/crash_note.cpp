@@ -50,8 +50,8 @@ class Line {
   }
   void send() {
     text_[size_++] = '\n';
-    if (write(STDERR_FILENO, text_ + timeSize_, size_ - timeSize_) < 0) return;  // nobody is left to be told
-    if (alsoTo >= 0 && write(alsoTo, text_, size_) < 0) return;
+    if (alsoTo >= 0 && write(alsoTo, text_, size_) < 0) alsoTo = -1;
+    if (write(STDERR_FILENO, text_ + timeSize_, size_ - timeSize_) < 0) return;  // nobody is left to read it
   }
 
  private:

@@ -38,8 +38,8 @@ void markNotes();
 /// error, as code that does not return. Call both functions from one thread.
 bool tellLastingNote();
 
-/// Sets handlers: from now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, if it has
-/// one, to standard error before they end the program as they always do.
+/// Sets handlers: from now on SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT write the note of their thread, or else that
+/// the program crashes, to standard error before they end the program as they always do.
 void reportCrashes();
 /// What is written to standard error goes to this log too, with the time before it. Negative: no longer.
 void reportCrashesAlsoTo(int descriptor);

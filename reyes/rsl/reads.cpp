@@ -2,6 +2,8 @@
 // or are computed.
 #include <dlfcn.h>
 
+#include <span>
+
 #include "reyes/rsl/hosted_shader.h"
 #include "reyes/rsl/passes/walk.h"
 
@@ -60,22 +62,47 @@ int32_t fileOf(const Code& code, const Instruction& i) {
   }
 }
 
+/// Returns for each register whether its text may get into one of `files`.
+std::vector<char> sourcesOf(const Code& code, const std::vector<int32_t>& files) {
+  std::vector<char> out(code.registers.size(), 0);
+  for (const int32_t file : files) out[static_cast<size_t>(file)] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    forEach(code.body, [&](const Instruction& i) {
+      bool wanted = false;
+      if (handsOn(i.op)) forEachWrite(i, [&](int32_t r) { wanted |= out[static_cast<size_t>(r)] != 0; });
+      for (const int32_t r : i.in) {
+        if (!wanted || !isText(code, r) || out[static_cast<size_t>(r)]) continue;
+        out[static_cast<size_t>(r)] = 1;
+        changed = true;
+      }
+    });
+  }
+  return out;
+}
+
+/// Returns the texts that a register has before the code runs.
+std::span<const std::string> initialTexts(const Code& code, const Register& r) {
+  if (r.origin == Origin::Constant) return r.texts;
+  if (r.origin == Origin::Parameter) return code.parameters[static_cast<size_t>(r.index)].texts;
+  return {};
+}
+
 void addReads(const Code& code, RslReads& out) {
   for (const Builtin* function : code.plugins)
     if (Dl_info plugin{}; dladdr(reinterpret_cast<const void*>(function->plugin), &plugin) != 0 && plugin.dli_fname)
       out.names.emplace_back(plugin.dli_fname);
   const std::vector<char> unknown = unknownTexts(code);
-  bool any = false;
+  std::vector<int32_t> files;
   forEach(code.body, [&](const Instruction& i) {
-    const int32_t file = fileOf(code, i);
-    if (file < 0) return;
-    any = true;
-    if (unknown[static_cast<size_t>(file)]) out.isKnown = false;
+    if (const int32_t file = fileOf(code, i); file >= 0) files.push_back(file);
   });
-  if (!any) return;
-  for (const Register& r : code.registers)
-    if (r.origin == Origin::Constant) out.names.insert(out.names.end(), r.texts.begin(), r.texts.end());
-  for (const Parameter& p : code.parameters) out.names.insert(out.names.end(), p.texts.begin(), p.texts.end());
+  for (const int32_t file : files)
+    if (unknown[static_cast<size_t>(file)]) out.isKnown = false;
+  const std::vector<char> sources = sourcesOf(code, files);
+  for (size_t r = 0; r < code.registers.size(); ++r)
+    if (sources[r])
+      for (const std::string& text : initialTexts(code, code.registers[r])) out.names.push_back(text);
 }
 
 }  // namespace

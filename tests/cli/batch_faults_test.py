@@ -81,6 +81,7 @@ t.expect_run("one of them is lost", ["batch", "pair", "-j", "2"], 0, "finished 3
 t.expect({name: (t.folder / name).read_bytes() for name in left("p.*.exr")} == pictures, "and is made again")
 again = {name for name, stamp in stamps.items() if (t.folder / name).stat().st_mtime_ns != stamp}
 t.expect({"p.2_ids.exr", "p.3.exr"} <= again <= {"p.2_ids.exr", "p.3.exr", "p.3_ids.exr"}, f"alone ({again})")
+t.expect(not left("pair/work/*"), f"and its tiles are removed again ({left('pair/work/*')})")
 
 # One machine has died, and one lives.
 t.write("half/owner", "4711 elsewhere\n")

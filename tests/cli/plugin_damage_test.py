@@ -57,6 +57,9 @@ result = t.run("scene.rib", "--plugin-path", "plugins", "-t", "1", "--log", "far
 t.expect(result.returncode == -11 and re.search(r'scene.rib:9: "ball", in the bucket of the pixels -?\d+,-?\d+ to \d+,\d+: surface shader "dots" crashes', result.stderr), f"a crash while it shades names shader, object, line and bucket: {result.stderr[-300:]}")
 last = (t.folder / "farm.log").read_text().splitlines()[-1]
 t.expect(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ " + re.escape(result.stderr.splitlines()[-1]), last), f"in the log, too, with the time: {last}")
+full = ["sh", "-c", '"$@" 2>/dev/full', "sh", t.program, "scene.rib", "--plugin-path", "plugins", "-t", "1", "--log", "full.log"]
+subprocess.run(full, cwd=t.folder, timeout=60)
+t.expect('"dots" crashes' in (t.folder / "full.log").read_text(), "also where standard error takes nothing")
 t.write("wild.cpp", """#include <reyes/shader_api.h>
 static const TmParamDecl params[] = {{(const char*)8, TM_FLOAT, 1, 0, 0, 0, 0}};
 static const TmShader shader = {TM_SHADER_ABI, sizeof(TmShader), TM_SURFACE, 0, 1, sizeof(TmParamDecl), params, [](const TmGrid*) {}, "dots", 0, 0, 0};

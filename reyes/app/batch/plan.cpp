@@ -64,6 +64,8 @@ std::vector<BatchTask> inOrder(const BatchPlan& plan) {
   return out;
 }
 
+bool isJoin(const BatchTask& task) { return task.arguments.front() == "join"; }
+
 }  // namespace
 
 const BatchTask* BatchPlan::find(const std::string& name) const {
@@ -198,7 +200,7 @@ std::vector<TaskState> statesOf(const BatchPlan& plan) {
     const auto needed = stillNeeded.find(task.name);
     out[i] = readState(plan, task);
     // One picture of a frame is joined after the other, and each must be there.
-    const bool isBetween = needed != stillNeeded.end() && task.arguments.front() != "join";
+    const bool isBetween = needed != stillNeeded.end() && !isJoin(task);
     if (isBetween && !needed->second)
       out[i].kind = TaskState::Done;
     else if (out[i].kind == TaskState::Done) {
@@ -208,6 +210,14 @@ std::vector<TaskState> statesOf(const BatchPlan& plan) {
     }
     for (const std::string& n : task.needs) stillNeeded[n] |= out[i].kind != TaskState::Done;
   }
+  // The last join of a frame removes the tiles that the others need.
+  std::set<int> joining;
+  for (size_t i = 0; i < out.size(); ++i)
+    if (isJoin(plan.tasks[i]) && out[i].kind != TaskState::Done) joining.insert(plan.tasks[i].frame);
+  for (size_t i = 0; i < out.size(); ++i)
+    if (isJoin(plan.tasks[i]) && !plan.tasks[i].removes.empty() && joining.contains(plan.tasks[i].frame) &&
+        out[i].kind == TaskState::Done)
+      out[i].kind = TaskState::Waiting;
   return out;
 }
 

@@ -108,7 +108,7 @@ int Audit::findIndirect(ShadeContext context) {
 int Audit::missingPaths() const {
   const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
   const double allowed = kNoiseOfError * std::max(known.mean, settings_.leastError);
-  if (known.noise <= allowed) return 0;
+  if (!(known.noise > allowed)) return 0;  // also if it is no number
   const double growth = allowed > 0 ? known.noise * known.noise / (allowed * allowed) : kMostGrowth;
   const double rays = std::min(growth, double{kMostGrowth}) * indirect_.rays;
   return std::min(static_cast<int>(std::ceil(rays)), kMostPaths) - indirect_.rays;

@@ -11,7 +11,7 @@
 namespace tomales {
 
 struct SmudgeSettings {
-  size_t blocks = 50;         ///< Number of blocks of each size.
+  size_t blocks = 0;          ///< Number of blocks of each size.
   size_t sizes = 4;           ///< Number of sizes, the first ones of kSmudgeSizes.
   uint32_t seed = 0;          ///< Decides which blocks, and the rays there.
   int lightSamples = 0;       ///< Samples of each light in each set of rays that finds the truth.

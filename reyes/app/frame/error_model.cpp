@@ -223,9 +223,17 @@ LightQuality ErrorModel::cheapest(const ErrorTarget& target, const std::optional
   };
   return search([&](const LightQuality& a, const LightQuality& b) {
     const double timesA = timesTarget(a, target), timesB = timesTarget(b, target);
-    if (timesA <= 1 && timesB <= 1) return costLeft(a) < costLeft(b);
-    return timesA < timesB;
+    const bool bothReach = timesA <= 1 && timesB <= 1;
+    if (!bothReach && timesA != timesB) return timesA < timesB;
+    // Where smudges miss, their light samples do not matter, but those of the mean error do.
+    if (!bothReach && error(a) != error(b)) return error(a) < error(b);
+    return costLeft(a) < costLeft(b);
   });
+}
+
+LightQuality ErrorModel::cheapestOfError(const ErrorTarget& target, const std::optional<LightQuality>& gathered) const {
+  const LightQuality best = cheapest(target, gathered), alone = cheapest({target.error, 0}, gathered);
+  return smudges(best) > target.smudges && error(alone) <= target.error ? alone : best;
 }
 
 LightQuality ErrorModel::best(double most) const { return bestOf(most, {}); }

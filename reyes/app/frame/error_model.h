@@ -115,6 +115,9 @@ class ErrorModel {
   /// can be trusted, returns the one that comes nearest. `gathered`: the quality of existing records, which cost
   /// nothing.
   LightQuality cheapest(const ErrorTarget& target, const std::optional<LightQuality>& gathered = {}) const;
+  /// Returns the same for smudges that nobody has asked for: where no quality reaches them, the mean error alone
+  /// decides.
+  LightQuality cheapestOfError(const ErrorTarget& target, const std::optional<LightQuality>& gathered = {}) const;
   /// Returns the best quality that costs no more than `most`: it minimizes the worse of mean error and smudges, and
   /// spends what is left on rays. If every quality costs more, returns the cheapest one.
   LightQuality best(double most) const;

@@ -21,7 +21,7 @@ constexpr double kMatters = 0.7;
 /// Trials have all their rays for this target and finer ones. For coarser targets, they have fewer in proportion, down
 /// to one in kFewestInTrials.
 constexpr double kFinestTarget = 0.01;
-constexpr int kFewestInTrials = 4;
+constexpr int kFewestInTrials = 2;
 constexpr double kTolerance = 1.1;  ///< A picture is lit again if its error is this many times the target.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
@@ -76,8 +76,8 @@ class TargetSearch {
       if (stopRequested()) return;
       // More rays in the picture do not reduce the noise of the audit.
       const QualityTrial errors = believedErrors(model, quality, report);
-      const bool isNear = errorIsNear(report, target_) && !smudgesAreFar(report, target_) &&
-                          errors.smudges <= kTolerance * target_.smudges;
+      const bool isNear =
+          errorIsNear(report, target_) && smudgesAreNear(report, model.smudges(quality), errors.smudges);
       model.correct(errors);
       const LightQuality better = cheapest(model, job_.method().caches ? std::optional(quality) : std::nullopt);
       if (isNear || attempt == kMostAttempts || better == quality) return finish(quality, report, attempt);
@@ -89,12 +89,15 @@ class TargetSearch {
  private:
   bool namesSmudges() const { return settings_.quality.targetSmudges > 0; }
 
-  /// Where smudges that nobody has named cannot be as small as the mean error, that error alone decides.
   LightQuality cheapest(const ErrorModel& model, const std::optional<LightQuality>& gathered = {}) const {
     const ErrorTarget aim = target_ * kMargin;
-    const LightQuality best = model.cheapest(aim, gathered);
-    const bool onlySmudgesMiss = model.smudges(best) > target_.smudges && model.error(best) <= target_.error;
-    return onlySmudgesMiss && !namesSmudges() ? model.cheapest({aim.error, 0}, gathered) : best;
+    return namesSmudges() ? model.cheapest(aim, gathered) : model.cheapestOfError(aim, gathered);
+  }
+
+  /// Returns false if the smudges are larger than asked, although they were to be reached.
+  bool smudgesAreNear(const AuditReport& report, double expected, double seen) const {
+    if (!namesSmudges() && expected > target_.smudges) return true;
+    return !smudgesAreFar(report, target_) && seen <= kTolerance * target_.smudges;
   }
 
   /// Keeps the records that there are if they are as asked: only lamps have other samples.
@@ -143,9 +146,12 @@ class TargetSearch {
 
   void finish(const LightQuality& quality, const AuditReport& report, int attempts) {
     light_.tellAudit(report);
-    describeQuality(job_.scene().options, optionsOf(quality), settings_);
+    const std::string options = optionsOf(quality);
+    describeQuality(job_.scene().options, options, settings_);
     tellMissed(report, settings_.quality,
-               fmt::format("{}, after {} of at most {} attempts", optionsOf(quality), attempts, kMostAttempts), log_);
+               fmt::format("{}, after {} of at most {} attempts",
+                           options.empty() ? "the scene's own settings" : options, attempts, kMostAttempts),
+               log_);
     if (settings_.quality.onQuality) settings_.quality.onQuality(quality);
   }
 

@@ -23,9 +23,8 @@ constexpr double kBetter = 0.95;      ///< Another round is worth it if the erro
 constexpr double kMuchBetter = 0.85;  ///< Records of another width are worth it if the error falls to this share.
 /// A round has at most this many times the rays of the one before, from which the cost of rays is known.
 constexpr int kMostGrowth = 12;
-constexpr double kShareOfProbe = 0.12;    ///< Share of the time left that a probe may take.
-constexpr size_t kBucketsOfProbe = 16;    ///< One bucket in this many is probed for the cost of more rays.
-constexpr int kLightSamplesOfAudit = 16;  ///< Light samples of a picture whose audit takes as long as those of trials.
+constexpr double kShareOfProbe = 0.12;  ///< Share of the time left that a probe may take.
+constexpr size_t kBucketsOfProbe = 16;  ///< At most one bucket in this many is probed for the cost of more rays.
 /// Limit of the factor by which light samples are cut when gathering was late: a late picture is better than noise.
 constexpr int kMostCutOfLights = 4;
 constexpr double kBrief_s = 60;  ///< Trials are brief where less time is left.
@@ -68,7 +67,9 @@ class BudgetedFrame {
   double left_s() const {
     // An audit takes many times as many light samples as the picture.
     const double audit_s =
-        settings_.quality.audit > 0 ? trials_.audit_s * std::max(1, quality_.lightSamples / kLightSamplesOfAudit) : 0;
+        settings_.quality.audit > 0
+            ? trials_.audit_s * std::max(1, quality_.lightSamples / std::max(1, trials_.lightSamples))
+            : 0;
     return kShareToPlan * (settings_.quality.timeBudget_s - job_.elapsed_s() - audit_s);
   }
 

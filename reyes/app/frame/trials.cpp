@@ -114,7 +114,7 @@ class Trials {
     if (records) tryNarrower(first, model);
     std::vector<size_t> tried = some_;
     std::stable_sort(tried.begin(), tried.end(), [&](size_t a, size_t b) { return points_.at(a) > points_.at(b); });
-    return {model, seen_, tried, audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
+    return {model, seen_, tried, second.quality.lightSamples, audit_s_, light_s_ > 0 ? lightRays_ / light_s_ : 0};
   }
 
  private:

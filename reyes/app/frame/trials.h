@@ -30,6 +30,7 @@ struct TrialsResult {
   ErrorModel model;
   std::vector<size_t> seen;   ///< Buckets that see something.
   std::vector<size_t> tried;  ///< Buckets among them that were tried, the one with the most points first.
+  int lightSamples = 0;       ///< Light samples of the finest picture among them.
   double audit_s = 0;         ///< Time that an audit of the frame may take.
   double raysPerSecond = 0;   ///< Rays per second on this machine now, for messages alone.
 

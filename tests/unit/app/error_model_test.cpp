@@ -55,6 +55,22 @@ TEST(ErrorModel, KeepsRecordsThatThereAreWhereOnlyLampsErrTooMuch) {
   EXPECT_FALSE(model.cheapest({0.004}, gathered).hasRecordsOf(gathered)) << "they do not reach this target";
 }
 
+TEST(ErrorModel, LeavesSmudgesOutThatNothingReachesIfNobodyHasAskedForThem) {
+  Frame frame;
+  const auto smudged = [&](const LightQuality& q) {
+    QualityTrial t = frame.trial(q);
+    t.smudges = 0.5 + t.indirect;
+    return t;
+  };
+  const ErrorModel model(smudged({150, 1, 4}), smudged({600, 1, 16}), smudged({150, 2, 4}));
+  const ErrorTarget target{0.02, 0.02};
+  const LightQuality best = model.cheapest(target), chosen = model.cheapestOfError(target);
+  EXPECT_GT(model.smudges(best), 0.02);
+  EXPECT_LE(model.error(best), 0.02) << "lamps count where smudges miss: " << optionsOf(best);
+  EXPECT_EQ(chosen, model.cheapest({0.02, 0}));
+  EXPECT_EQ(Frame().model().cheapestOfError(target), Frame().model().cheapest(target)) << "without smudges";
+}
+
 TEST(ErrorModel, BelievesAnAuditAsFarAsItIsCertain) {
   EXPECT_NEAR(likelyError(0.01, 0.04, 0.04, 0.04), 0.04, 1e-9);
   EXPECT_NEAR(likelyError(0.01, 0.04, 0.0001, 4), 0.01, 0.002);

@@ -31,6 +31,15 @@ TEST(Reads, FollowNamesThroughVariablesConditionsAndArrays) {
   }
 }
 
+TEST(Reads, AreNotTextsThatNoFileIsNamedBy) {
+  const RslReads reads = readsOf(
+      "string n = a; if (m == \"mode\") n = \"b.tex\"; Ci = color texture(n); bake3d(\"out.ptc\", \"c\", P, N, \"c\", "
+      "Ci);",
+      "string a = \"a.tex\"; string m = \"other\"");
+  EXPECT_TRUE(names(reads, "a.tex") && names(reads, "b.tex"));
+  for (const char* other : {"mode", "other", "out.ptc", "c"}) EXPECT_FALSE(names(reads, other)) << other;
+}
+
 TEST(Reads, AreUnknownIfANameIsComputedOrTold) {
   for (const char* way : {"string n = concat(a, \".tex\");", "string n = format(\"%f.tex\", s);",
                           "string n = a; attribute(\"user:n\", n);", "string n = a; n = shadername(\"displacement\");",
