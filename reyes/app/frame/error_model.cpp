@@ -11,7 +11,9 @@ namespace {
 /// Noise and bias each have at least this share of an error's square: a trial may show none of it by chance.
 constexpr double kLeastShare = 0.03;
 /// Limits of the search around the base, in half octaves.
-constexpr int kFewerRays = 6, kNarrower = 8, kWider = 4, kFewerLightSamples = 4;
+constexpr int kFewerRays = 6, kNarrower = 8, kFewerLightSamples = 4;
+/// Records are no wider than those of the trials: in few pixels, wider ones err much more than a law of narrow ones says.
+constexpr int kWider = 2;
 /// Absolute limits of the search, whatever the trials used.
 constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
 constexpr double kLeastRaysPower = 0.2, kMostRaysPower = 1.2;

@@ -55,6 +55,12 @@ TEST(ErrorModel, KeepsRecordsThatThereAreWhereOnlyLampsErrTooMuch) {
   EXPECT_FALSE(model.cheapest({0.004}, gathered).hasRecordsOf(gathered)) << "they do not reach this target";
 }
 
+TEST(ErrorModel, ChoosesNoRecordsThatAreWiderThanThoseOfTheTrials) {
+  Frame frame;
+  frame.bias = 1e-6;
+  EXPECT_EQ(frame.model().cheapest({0.05}).maxError, 2);
+}
+
 TEST(ErrorModel, LeavesSmudgesOutThatNothingReachesIfNobodyHasAskedForThem) {
   Frame frame;
   const auto smudged = [&](const LightQuality& q) {
