@@ -100,12 +100,14 @@ bool isNormal(const Expr& e) {
 
 }  // namespace
 
+// A lamp whose cone is computed shines from its front, as nearly all do: `illuminate(P, N, PI / 2)`.
 void Lowering::noteCone(const Expr& axis, int32_t angle) {
   const Register& r = code_.registers[static_cast<size_t>(angle)];
-  if (isNormal(axis) && r.origin == Origin::Parameter)
+  const bool turned = axis.kind == ExprKind::Unary && axis.text == "-" && isNormal(*axis.args[0]);
+  if (turned || (r.origin == Origin::Constant && r.floats[0] > kRightAngle))
+    code_.allRound = true;
+  else if (r.origin == Origin::Parameter)
     code_.coneAngles.push_back(r.index);
-  else
-    code_.allRound |= !isNormal(axis) || r.origin != Origin::Constant || r.floats[0] > kRightAngle;
 }
 
 void Lowering::illuminate(const Stmt& s) {

@@ -32,34 +32,12 @@ void ShadingSystem::probe(int light, LightProbe& probe) const {
 
 namespace {
 
-/// Points of a lamp farther than its coarse surface by more than this factor are others.
-constexpr float kBeyondNear = 1.01f;
-
 /// Lets the point P of a lamp, with the normal N, light an eye along I.
 void add(LightProbe& seen, const vec3& eye, const vec3& I, const vec3& P, const vec3& N) {
   seen.P.push_back(eye);
   seen.N.push_back(normalizeOr(I, I));
   seen.Pl.push_back(P);
   seen.Nl.push_back(normalizeOr(N, N));
-}
-
-/// Adds where the rays to points on a lamp leave it again: what lies behind shines through.
-void addFarSides(const ShadePoints& points, int light, const ShadeServices* services, std::vector<size_t>& front,
-                 LightProbe& seen) {
-  const size_t n = services ? front.size() : 0;
-  for (size_t k = 0; k < n; ++k) {
-    const int i = static_cast<int>(front[k]);
-    vec3 I = points.get3(kIx, i), eye = points.position(i) - I, along = normalizeOr(I, I), P, N;
-    float pdf = 1, ignored = 0;
-    const EmitterPoints found{{&P.x, &P.y, &P.z}, {&N.x, &N.y, &N.z}, &pdf, &ignored};
-    for (int layer = 0;; ++layer) {
-      services->meetWholeEmitter(light, layer, 1, {&eye.x, &eye.y, &eye.z}, {&along.x, &along.y, &along.z}, found);
-      if (!(pdf > 0)) break;
-      if (!(length(P - eye) > length(I) * kBeyondNear)) continue;
-      front.push_back(front[k]);
-      add(seen, eye, I, P, N);
-    }
-  }
 }
 
 }  // namespace
@@ -81,14 +59,13 @@ void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec
     front.push_back(static_cast<size_t>(i));
     add(seen, P - I, I, P, N);
   }
-  if (allRound) addFarSides(points, index, impl_->services, front, seen);
   radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
   if (!front.empty()) probe(index, seen);
   if (!seen.finite)
     impl_->log.report(Severity::Warning, "light-not-finite", light->bound->where,
                       fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
                                   light->bound->user, light->bound->shader->name));
-  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] += seen.Cl[k];
+  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
 }
 
 }  // namespace tomales
