@@ -12,7 +12,8 @@ namespace {
 constexpr double kLeastShare = 0.03;
 /// Limits of the search around the base, in half octaves.
 constexpr int kFewerRays = 6, kNarrower = 8, kFewerLightSamples = 4;
-/// Records are no wider than those of the trials: in few pixels, wider ones err much more than a law of narrow ones says.
+/// Records are no wider than those of the trials: in few pixels, wider ones err much more than a law of narrow ones
+/// says.
 constexpr int kWider = 2;
 /// Absolute limits of the search, whatever the trials used.
 constexpr int kMostRaysOfRecord = 9600, kMostPathsOfPoint = 1024, kMostLightSamples = 1024;
