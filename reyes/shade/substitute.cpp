@@ -31,7 +31,6 @@ const TmShader& substituteSurface() {
 }
 
 const char* standardLightFor(const ShaderCall& call, bool area) {
-  if (area) return "arealight";
   static constexpr struct {
     const char *part, *light;
   } kNames[] = {{"caustic", ""},
@@ -48,7 +47,8 @@ const char* standardLightFor(const ShaderCall& call, bool area) {
                 {"point", "pointlight"}};
   const std::string name = lowerCase(call.name);
   for (const auto& [part, light] : kNames)
-    if (name.find(part) != name.npos) return light;
+    if (name.find(part) != name.npos) return area && *light ? "arealight" : light;
+  if (area) return "arealight";
   const auto gives = [&](const char* parameter) { return findParam(call.params, parameter) != nullptr; };
   if (gives("coneangle") || gives("conedeltaangle") || gives("beamdistribution")) return "spotlight";
   if (gives("to")) return "distantlight";

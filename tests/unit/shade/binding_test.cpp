@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "reyes/shade/parameter_values.h"
+#include "reyes/shade/substitute.h"
 #include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 #include "tests/unit/shade/written_picture.h"
@@ -136,6 +137,14 @@ TEST_F(Binding, AStandardLightWithItsParametersStandsInForOneThatIsMissing) {
   EXPECT_FLOAT_EQ(lit("causticlight", {bright}), 0) << "it brings what other lights have sent";
   EXPECT_EQ(log.worst(), Severity::Missing);
   EXPECT_EQ(log.count("shader-parameter-unknown"), 0) << "what only the missing shader has";
+}
+
+TEST_F(Binding, AnAreaLightStandsInForAMissingLightWithGeometryUnlessItBringsIndirectLight) {
+  ShaderCall call;
+  for (const auto& [name, instead] : {std::pair("nosuch", "arealight"), {"spotty", "arealight"}, {"mycaustic", ""}}) {
+    call.name = name;
+    EXPECT_STREQ(standardLightFor(call, true), instead) << name;
+  }
 }
 
 TEST_F(Binding, UnknownAndMistypedParametersAreWarnedAboutAndDefaulted) {
