@@ -60,6 +60,7 @@ void Log::append(const std::string& line) {
 }
 
 bool Log::isWanted(Severity severity) const {
+  if (verbosity_ == Verbosity::Silent) return false;
   return verbosity_ == Verbosity::Verbose || severity > Severity::Warning ||
          (verbosity_ == Verbosity::Normal && severity >= Severity::Note);
 }

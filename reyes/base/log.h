@@ -43,7 +43,12 @@ struct LogEntry {
 
 class Log {
  public:
-  enum class Verbosity { Quiet, Normal, Verbose };
+  enum class Verbosity {
+    Silent,  ///< Prints nothing; entries() has the messages.
+    Quiet,
+    Normal,
+    Verbose
+  };
   static constexpr int kMostLinesOfCode = 100;
   static constexpr size_t kMostPlaces = 4;
   static constexpr size_t kMostRepeated = 10;  ///< Messages whose places the destructor prints.

@@ -205,7 +205,11 @@ bool displaysCanBegin(const Options& options, const PluginTrust& trust, Log& log
   for (size_t i = 0; i < options.displays.size(); ++i) {
     const DisplayCall& d = options.displays[i];
     if (d.type == "null" || !driverOf(d, options, trust).empty()) continue;
-    all = DisplayFile(shape, output, i, options, log, {}, {}, trust).hasBegun() && all;
+    // The frame begins each Display once more, and reports then what is worth a warning.
+    Log trial(Log::Verbosity::Silent);
+    if (DisplayFile(shape, output, i, options, trial, {}, {}, trust).hasBegun()) continue;
+    all = false;
+    for (const LogEntry& e : trial.entries()) log.report(e.severity, e.code, e.where, e.message);
   }
   return all;
 }

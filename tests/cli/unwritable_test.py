@@ -1,5 +1,6 @@
 """Tests that output that cannot be written gives exit code 4, in every command and for every kind of output. Words instead of
 numbers are wrong usage."""
+import json
 import shutil
 import subprocess
 
@@ -84,6 +85,10 @@ for what, display, program, *says in (
     result = subprocess.run([program, "two.rib"], cwd=t.folder, capture_output=True, text=True, timeout=60)
     t.expect(result.returncode == 4 and all(s in result.stderr for s in (*says, "two.rib:2", "the frame was not rendered")), f"{what} is told {result.stderr[-300:]}")
     t.expect(not (t.folder / "first.exr").exists(), "before the frame begins")
+t.write("wide.rib", 'Display "wide.png" "file" "rgb" "float quantize[4]" [0 0 0 0]\n' + GOOD.split("\n", 1)[1])
+t.expect_run("a Display with a warning", ["wide.rib", "--stats", "wide.json"], 0, "holds no floating point numbers")
+warned = [m["count"] for m in json.loads((t.folder / "wide.json").read_text())["warnings"] if m["code"] == "display-quantize"]
+t.expect(warned == [1], f"is reported once ({warned})")
 t.write("self.rib", GOOD.replace('"good.exr" "file"', '"./self.rib" "openexr"'))
 scene = (t.folder / "self.rib").read_bytes()
 t.expect_run("a picture in the place of the scene", ["self.rib"], 4, "self.rib:1", "would replace the scene")

@@ -87,7 +87,9 @@ void checkPlan(BatchPlan& plan) {
     if (!names.insert(t.name).second) refusePlan(plan, fmt::format("two tasks are called \"{}\"", t.name));
     if (t.arguments.empty()) refusePlan(plan, fmt::format("task \"{}\" has no arguments", t.name));
     for (const std::string& file : t.makes)
-      if (const auto [at, isNew] = makers.emplace(placeOf(fs::path(plan.workingFolder) / file), t.name); !isNew)
+      if (const auto [at, isNew] =
+              makers.emplace((fs::path(plan.workingFolder) / file).lexically_normal().string(), t.name);
+          !isNew)
         refusePlan(plan, fmt::format("\"{}\" and \"{}\" both make \"{}\"", at->second, t.name, file));
   }
   for (const BatchTask& t : plan.tasks)
