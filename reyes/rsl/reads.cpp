@@ -2,6 +2,7 @@
 // or are computed.
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <span>
 
 #include "reyes/rsl/hosted_shader.h"
@@ -18,22 +19,30 @@ bool isText(const Code& code, int32_t r) {
 /// Tells whether the instruction hands on a text that it takes.
 bool handsOn(Op op) { return op == Op::Copy || op == Op::Select || op == Op::ElementS || op == Op::SetElement; }
 
+/// Marks registers of texts until `step`, which is called with each instruction and a function that marks a register,
+/// marks no more.
+template <class Step>
+void spread(const Code& code, std::vector<char>& marked, const Step& step) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto mark = [&](int32_t r) {
+      if (!isText(code, r) || marked[static_cast<size_t>(r)]) return;
+      marked[static_cast<size_t>(r)] = 1;
+      changed = true;
+    };
+    forEach(code.body, [&](const Instruction& i) { step(i, mark); });
+  }
+}
+
 /// Returns for each register whether it may hold a text that is neither constant nor a parameter: computed, or told by
 /// others.
 std::vector<char> unknownTexts(const Code& code) {
   std::vector<char> out(code.registers.size(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    forEach(code.body, [&](const Instruction& i) {
-      bool unknown = !handsOn(i.op);
-      for (const int32_t r : i.in) unknown |= isText(code, r) && out[static_cast<size_t>(r)];
-      forEachWrite(i, [&](int32_t r) {
-        if (!unknown || !isText(code, r) || out[static_cast<size_t>(r)]) return;
-        out[static_cast<size_t>(r)] = 1;
-        changed = true;
-      });
-    });
-  }
+  spread(code, out, [&](const Instruction& i, const auto& mark) {
+    bool unknown = !handsOn(i.op);
+    for (const int32_t r : i.in) unknown |= isText(code, r) && out[static_cast<size_t>(r)];
+    if (unknown) forEachWrite(i, mark);
+  });
   return out;
 }
 
@@ -66,18 +75,11 @@ int32_t fileOf(const Code& code, const Instruction& i) {
 std::vector<char> sourcesOf(const Code& code, const std::vector<int32_t>& files) {
   std::vector<char> out(code.registers.size(), 0);
   for (const int32_t file : files) out[static_cast<size_t>(file)] = 1;
-  for (bool changed = true; changed;) {
-    changed = false;
-    forEach(code.body, [&](const Instruction& i) {
-      bool wanted = false;
-      if (handsOn(i.op)) forEachWrite(i, [&](int32_t r) { wanted |= out[static_cast<size_t>(r)] != 0; });
-      for (const int32_t r : i.in) {
-        if (!wanted || !isText(code, r) || out[static_cast<size_t>(r)]) continue;
-        out[static_cast<size_t>(r)] = 1;
-        changed = true;
-      }
-    });
-  }
+  spread(code, out, [&](const Instruction& i, const auto& mark) {
+    bool wanted = false;
+    if (handsOn(i.op)) forEachWrite(i, [&](int32_t r) { wanted |= out[static_cast<size_t>(r)] != 0; });
+    if (wanted) std::ranges::for_each(i.in, mark);
+  });
   return out;
 }
 
