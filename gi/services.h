@@ -169,7 +169,7 @@ class GiServices final : public ShadeServices {
                               const ShadeContext&, TmVec3 out) const override;
   void indirectDiffuse(const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
                        const ShadeContext&, IndirectResult out) const override;
-  bool followsLobes() const override;
+  bool followsLobes(const ShadeContext& context) const override;
   void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                      const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const override;
 

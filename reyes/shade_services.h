@@ -87,6 +87,8 @@ struct ShadeContext {
   /// Number of paths that find indirect light at each point without records or maps, to measure the error of those. 0:
   /// the frame's method finds that light.
   int auditPaths = 0;
+  /// Where the eye looks, as many paths also go along the lobe of each highlight of indirect light.
+  bool auditsLobes = false;
   /// Records are changed by an independent draw of their noise (GiServices::redrawRecords). With another seed this
   /// gives an independent picture of the frame, from which its standard error is known.
   bool redrawn = false;
@@ -287,8 +289,8 @@ class ShadeServices {
   virtual void indirectDiffuse(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const = 0;
 
-  /// Tells whether indirectAlong() knows an answer: paths find indirect light.
-  virtual bool followsLobes() const { return false; }
+  /// Tells whether indirectAlong() knows an answer: paths find the indirect light of highlights.
+  virtual bool followsLobes(const ShadeContext&) const { return false; }
   /// Gives the radiance that other surfaces send to each point along a unit direction, `way.number` of `way.count`.
   virtual void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                              const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const;

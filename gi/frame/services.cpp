@@ -250,12 +250,14 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
   addMeasured(*impl_, points, active, N, bounces, context, out);
 }
 
-bool GiServices::followsLobes() const { return impl_->settings.mode == GiMode::Reference; }
+bool GiServices::followsLobes(const ShadeContext& context) const {
+  return impl_->settings.mode == GiMode::Reference || context.auditsLobes;
+}
 
 void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                                const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const {
   ShadeServices::indirectAlong(points, active, way, query, context, out);
-  const int bounces = bouncesFor(*impl_, query);
+  const int bounces = context.auditPaths > 0 ? auditBouncesFor(*impl_, query) : bouncesFor(*impl_, query);
   if (context.diffuseDepth < bounces && context.purpose != Purpose::Rehearsal)
     traceAlong(*impl_, points, active, way, query, context, bounces, out);
 }

@@ -55,6 +55,7 @@ inline constexpr RandomStream kRandomStreams[] = {
     {"pass", "passes of photons that are counted at points"},
     {"audi", "pixels that are audited"},
     {"sets", "light that an audit finds at its pixels, set by set"},
+    {"glos", "light by which an audit finds the pixels that see highlights of indirect light"},
     {"bloc", "blocks of pixels that an audit looks at for smudges"},
     {"cell", "pixels of a block that an audit looks at"},
     {"even", "light that an audit finds in blocks, set by set"},

@@ -90,7 +90,7 @@ class Highlight {
         exponent_(batch.arena.floats(g->count)),
         share_(batch.arena.floats(g->count)),
         side_(batch.arena.bytes(g->count)),
-        follows_(batch.points && batch.scene.services && batch.scene.services->followsLobes()),
+        follows_(batch.points && batch.scene.services && batch.scene.services->followsLobes(batch.context)),
         drawn_(lobeSamples(&batch, g)) {
     forActive(g, [&](int i) { set(out, i, vec3(0.0f)); });
     normalizeAll(g->count, N, N_);
@@ -166,7 +166,7 @@ class Highlight {
   }
 
   void addPathsOf(const BoundLight& light) {
-    const int n = g_->count, count = std::max(1, shareOfBranch(batch_.context.lightSamples, 1, batch_.context));
+    const int n = g_->count, count = pathCount();
     float *xi0 = batch_.arena.floats(n), *xi1 = batch_.arena.floats(n), *weight = batch_.arena.floats(n);
     const TmVec3 L = batch_.arena.vec3(n), color = batch_.arena.vec3(n);
     const vec3 scale = batch_.group.group->attributes->indirect.gain * light.sourceTint *
@@ -186,6 +186,11 @@ class Highlight {
         if (side_[i]) set(out_, i, get(out_, i) + weight[i] * scale * get(color, i));
       });
     }
+  }
+
+  int pathCount() const {
+    const ShadeContext& context = batch_.context;
+    return context.auditsLobes ? context.auditPaths : std::max(1, shareOfBranch(context.lightSamples, 1, context));
   }
 
   /// Where paths have branched already, most paths along lobes are ended at random, and the others get a higher weight

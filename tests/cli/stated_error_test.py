@@ -65,6 +65,28 @@ t.expect(pixels(t.folder / "none.exr") == pixels(t.folder / "other.exr"), "a fra
 _, said, header, _ = render("dark.exr", "--audit", command=("dark.rib",))
 t.expect("nothing to audit" in said[0], "a dark picture has nothing to audit")
 
+# The floor shows what lies in the mirrored direction, which a hemisphere's mean direction does not tell.
+GLOSSY = '''Display "glossy.exr" "openexr" "rgb" Format 24 16 1 PixelSamples 2 2 PixelFilter "box" 1 1
+Projection "perspective" "fov" [50] Translate 0 -0.5 3 Rotate -15 1 0 0
+WorldBegin
+LightSource "indirectlight" 1 "float samples" [256] "float maxerror" [0.5]
+Attribute "visibility" "int diffuse" [1] "int specular" [1]
+Surface "constant" Polygon "P" [-2 0 2  -0.5 0 2  -0.5 1.5 2  -2 1.5 2]
+Surface "{}" "float Ka" [0] "float roughness" [0.1] Polygon "P" [-2 0 -1  2 0 -1  2 0 2  -2 0 2]
+WorldEnd
+'''
+for surface in ("metal", "matte"):
+    t.write(f"{surface}.rib", GLOSSY.format(surface))
+_, said, _, figures = render("metal.exr", "--audit=384", command=("metal.rib",))
+t.run("metal.rib", "-o", "metal_truth.exr", "--gi", "reference", "--samples", "256", "--light-samples", "1024")
+picture, truth = pixels(t.folder / "metal.exr"), pixels(t.folder / "metal_truth.exr")
+errors = [sum(abs(x - y) / (y + 0.01) for x, y in zip(picture[p][:3], truth[p][:3])) / 3 for p in picture if max(*truth[p][:3], *picture[p][:3]) > 0]
+true = sum(errors) / len(errors)
+t.expect(true > 0.05 and figures["picture"]["low"] < true < figures["picture"]["high"], f"highlights of indirect light are in the error: {true:.3f}, {figures['picture']}")
+t.expect("its highlights" in said[0] and abs(figures["highlights"]["mean"] / true - 1) < 0.3, f"and most of it: {said[0]}")
+figures = render("matte.exr", "--audit=100", command=("matte.rib",))[3]
+t.expect("highlights" not in figures and figures["indirect"]["mean"] < 0.03, f"a matte floor has none: {figures}")
+
 for bad in ("--audit=0", "--audit=-3", "--audit=some", "--audit=1e9"):
     t.expect_run(f"{bad} is refused", ["room.rib", bad], 1, "--audit")
 t.finish()

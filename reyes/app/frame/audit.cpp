@@ -18,6 +18,7 @@ constexpr float kAuditFloor = 0.01f;  ///< Added to the divisor of relative erro
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 0.4;
 constexpr int kMostGrowth = 4;  ///< No more than so many times the paths are added at once: a few tell little.
+constexpr int kPathsThatTellGloss = 4;
 constexpr int kTimesLightSamples = 8;
 constexpr size_t kPixelsPerBlock = 6;
 constexpr float kMeanOfNormal = 0.7979f;  ///< Mean absolute value of draws from the normal distribution.
@@ -50,7 +51,8 @@ AuditReport Audit::of(const ShadeContext& context) {
   if (settings_.indirect) out.paths = 2 * findIndirect(context);
   if (direct) out.direct = estimateError(errorsOf({&direct_}));
   if (settings_.indirect) out.indirect = estimateError(errorsOf({&indirect_}));
-  const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_});
+  if (!glossy_.empty()) out.highlights = estimateError(errorsOf({&highlights_}));
+  const std::vector<AuditedError> errors = errorsOf({&direct_, &indirect_, &highlights_});
   out.pixels = errors.size();
   out.picture = estimateError(errors);
   out.pixelSamples = pixelSampleError();
@@ -99,14 +101,39 @@ int Audit::findDirect(ShadeContext context) {
 int Audit::findIndirect(ShadeContext context) {
   context.direct = false;
   indirect_.picture = colors(context);
+  if (settings_.lobes && indirect_.rays == 0) findGlossy(context);
   for (int missing = kFewestPaths - indirect_.rays; missing > 0 && !stop_.requested(); missing = missingPaths())
     addSets(indirect_, context, missing);
   return indirect_.rays;
 }
 
+/// Finds the pixels whose colour changes where paths follow lobes.
+void Audit::findGlossy(ShadeContext context) {
+  context.auditPaths = kPathsThatTellGloss;
+  context.seed = hashCombine(settings_.seed, randomStream("glos"));
+  const std::vector<vec3> without = colors(context);
+  context.auditsLobes = true;
+  const std::vector<vec3> with = colors(context);
+  for (size_t p = 0; p < pixels_.size(); ++p) {
+    if (with[p] == without[p]) continue;
+    glossy_.push_back(p);
+    glossyPixels_.push_back(pixels_[p]);
+  }
+  highlights_.picture.assign(pixels_.size(), vec3(0.0f));
+}
+
+/// Returns how the colour of each pixel changes where the same paths also follow lobes.
+std::vector<vec3> Audit::highlightsBeside(const std::vector<vec3>& without, ShadeContext context) const {
+  context.auditsLobes = true;
+  const std::vector<SampledColor> with = shadeAuditPixels(glossyPixels_, samplesPerPixel_, scene_, shading_, context);
+  std::vector<vec3> out(pixels_.size(), vec3(0.0f));
+  for (size_t i = 0; i < glossy_.size(); ++i) out[glossy_[i]] = with[i].mean - without[glossy_[i]];
+  return out;
+}
+
 /// Returns how many more paths each set needs. The square of noise falls with their number.
 int Audit::missingPaths() const {
-  const ErrorEstimate known = estimateError(errorsOf({&indirect_}));
+  const ErrorEstimate known = estimateError(errorsOf({&indirect_, &highlights_}));
   const double allowed = kNoiseOfError * std::max(known.mean, settings_.leastError);
   if (!(known.noise > allowed)) return 0;  // also if it is no number
   const double growth = allowed > 0 ? known.noise * known.noise / (allowed * allowed) : kMostGrowth;
@@ -114,18 +141,23 @@ int Audit::missingPaths() const {
   return std::min(static_cast<int>(std::ceil(rays)), kMostPaths) - indirect_.rays;
 }
 
-/// Adds `rays` to each of the two sets.
-void Audit::addSets(FoundLight& light, ShadeContext context, int rays) const {
+/// Adds `rays` to each of the two sets, and the highlights that these rays find.
+void Audit::addSets(FoundLight& light, ShadeContext context, int rays) {
   context.auditPaths = rays;
   const float share = static_cast<float>(rays) / static_cast<float>(light.rays + rays);
+  const auto add = [&](const std::vector<vec3>& more, std::vector<vec3>& mean) {
+    mean.resize(pixels_.size(), vec3(0.0f));
+    for (size_t p = 0; p < mean.size(); ++p) mean[p] += share * (more[p] - mean[p]);
+  };
+  const bool hasHighlights = &light == &indirect_ && !glossy_.empty();
   for (uint32_t set = 0; set < 2; ++set) {
     context.seed = hashCombine(settings_.seed, randomStream("sets"), 2 * static_cast<uint32_t>(light.rays) + set);
-    std::vector<vec3>& mean = light.sets[set];
-    mean.resize(pixels_.size(), vec3(0.0f));
-    const std::vector<vec3> more = colors(context);
-    for (size_t p = 0; p < mean.size(); ++p) mean[p] += share * (more[p] - mean[p]);
+    const std::vector<vec3> found = colors(context);
+    add(found, light.sets[set]);
+    if (hasHighlights) add(highlightsBeside(found, context), highlights_.sets[set]);
   }
   light.rays += rays;
+  if (hasHighlights) highlights_.rays = light.rays;
 }
 
 /// Returns the errors that these kinds of light make together, at the pixels that are lit.
@@ -133,7 +165,7 @@ std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight
   std::vector<AuditedError> out;
   for (size_t p = 0; p < pixels_.size(); ++p) {
     vec3 right = picture_[p].mean, off(0.0f), noise(0.0f);
-    for (const FoundLight* light : {&direct_, &indirect_})
+    for (const FoundLight* light : {&direct_, &indirect_, &highlights_})
       if (light->rays > 0) right += light->missing(p);
     for (const FoundLight* light : kinds)
       if (light->rays > 0) {
@@ -162,6 +194,7 @@ void recordAudit(const AuditReport& r, Stats& stats) {
     stats.addAudit(fmt::format("smudges_{}", s.size), {s.deviation, s.low, s.high, s.noise, 0});
   add("picture", r.picture);
   if (r.indirect) add("indirect", *r.indirect);
+  if (r.highlights) add("highlights", *r.highlights);
   if (r.direct) add("direct", *r.direct);
 }
 
@@ -170,6 +203,7 @@ std::string sentenceOf(const AuditReport& r) {
   std::string parts;
   if (r.indirect)
     parts += fmt::format("; indirect light {}, by {} paths at each point", percentOf(*r.indirect), r.paths);
+  if (r.highlights) parts += fmt::format("; its highlights {}", percentOf(*r.highlights));
   if (r.direct) parts += fmt::format("; direct light {}", percentOf(*r.direct));
   if (r.pixelSamples > 0) parts += fmt::format("; the pixels' samples add up to about {:.2g} %", 100 * r.pixelSamples);
   for (const SmudgeEstimate& s : r.smudges)

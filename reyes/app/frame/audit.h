@@ -19,6 +19,7 @@ struct AuditSettings {
   uint32_t seed = 0;     ///< Decides which pixels are audited, and the rays there.
   bool direct = true;    ///< Direct light is audited, if the picture has any.
   bool indirect = true;  ///< Indirect light is audited: the frame has some.
+  bool lobes = false;    ///< So are its highlights.
   /// The noise of the audit may be a share of the error that it finds, or of this one if it is larger, because nobody
   /// asks how much smaller an error is.
   double leastError = 0;
@@ -35,6 +36,9 @@ struct AuditReport {
   ErrorEstimate picture;  ///< Error of all light together. All errors are shares of the picture's colour.
   /// Errors of indirect and of direct light. They too are shares of the picture's colour.
   std::optional<ErrorEstimate> indirect, direct;
+  /// Error of the highlights of indirect light, whose model more rays do not mend (docs/decisions/0187). It is not part
+  /// of `indirect`. None if no highlights were audited or seen.
+  std::optional<ErrorEstimate> highlights;
   /// Estimates the mean error that too few pixel samples add to those errors. It takes samples as independent. They are
   /// stratified, and filters are wider than a pixel, so the true error is mostly smaller. Details that no sample sees
   /// can make it larger.
@@ -75,9 +79,11 @@ class Audit {
   int findDirect(ShadeContext context);
   int findIndirect(ShadeContext context);
   int missingPaths() const;
+  void findGlossy(ShadeContext context);
   std::vector<vec3> colors(const ShadeContext& context) const;
+  std::vector<vec3> highlightsBeside(const std::vector<vec3>& without, ShadeContext context) const;
   double pixelSampleError() const;
-  void addSets(FoundLight& light, ShadeContext context, int rays) const;
+  void addSets(FoundLight& light, ShadeContext context, int rays);
   std::vector<AuditedError> errorsOf(std::initializer_list<const FoundLight*> kinds) const;
 
   const Scene& scene_;
@@ -89,6 +95,9 @@ class Audit {
   std::vector<SampledColor> picture_;
   SmudgeAudit smudges_;
   FoundLight direct_, indirect_;
+  FoundLight highlights_;                 ///< What paths along lobes change in the sets of indirect_.
+  std::vector<size_t> glossy_;            ///< Indices of the pixels that see highlights of indirect light.
+  std::vector<AuditPixel> glossyPixels_;  ///< Those pixels.
 };
 
 /// Writes the report to the statistics.

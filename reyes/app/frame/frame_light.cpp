@@ -94,6 +94,7 @@ AuditReport FrameLight::audit(uint32_t seed, const ErrorTarget& matters) {
   const StageTimer timer(job_.stats(), "audit");
   job_.meter().begin("auditing");
   AuditSettings settings = auditSettings(seed);
+  settings.lobes = settings.indirect && !job_.method().isReference;  // the reference follows them in its pictures too
   settings.leastError = matters.error;
   settings.leastSmudges = matters.smudges;
   if (matters.smudges > 0 && job_.settings().quality.audit == 0) settings.smudgeSizes = 1;  // nothing asks for others

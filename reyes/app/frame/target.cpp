@@ -22,7 +22,11 @@ constexpr double kMatters = 0.7;
 /// to one in kFewestInTrials.
 constexpr double kFinestTarget = 0.01;
 constexpr int kFewestInTrials = 2;
-constexpr double kTolerance = 1.1;  ///< A picture is lit again if its error is this many times the target.
+/// At least this share of the target is left for other errors than that of highlights, because less would cost more
+/// than it brings.
+constexpr double kLeastLeft = 0.5;
+constexpr double kMuchOfTarget = 0.5;  ///< Highlights that err by this share of the target are named if it is missed.
+constexpr double kTolerance = 1.1;     ///< A picture is lit again if its error is this many times the target.
 
 ErrorTarget targetOf(const QualitySettings& settings) {
   return {settings.targetError, settings.targetSmudges > 0 ? settings.targetSmudges : settings.targetError};
@@ -79,6 +83,7 @@ class TargetSearch {
       const bool isNear =
           errorIsNear(report, target_) && smudgesAreNear(report, model.smudges(quality), errors.smudges);
       model.correct(errors);
+      if (report.highlights && report.highlights->tells()) highlights_ = report.highlights->mean;
       const LightQuality better = cheapest(model, job_.method().caches ? std::optional(quality) : std::nullopt);
       if (isNear || attempt == kMostAttempts || better == quality) return finish(quality, report, attempt);
       tellAgain(report, better);
@@ -89,8 +94,14 @@ class TargetSearch {
  private:
   bool namesSmudges() const { return settings_.quality.targetSmudges > 0; }
 
+  /// Returns the error to aim at beside that of highlights, which no settings change.
+  double aimedError() const {
+    const double all = kMargin * target_.error, left = all * all - highlights_ * highlights_;
+    return left > 0 ? std::max(std::sqrt(left), kLeastLeft * all) : all;
+  }
+
   LightQuality cheapest(const ErrorModel& model, const std::optional<LightQuality>& gathered = {}) const {
-    const ErrorTarget aim = target_ * kMargin;
+    const ErrorTarget aim{aimedError(), kMargin * target_.smudges};
     return namesSmudges() ? model.cheapest(aim, gathered) : model.cheapestOfError(aim, gathered);
   }
 
@@ -160,6 +171,7 @@ class TargetSearch {
   const RenderSettings& settings_;
   const ErrorTarget target_;
   Log& log_;
+  double highlights_ = 0;  ///< Error of the highlights of indirect light in the last picture.
 };
 
 }  // namespace
@@ -186,6 +198,10 @@ void tellMissed(const AuditReport& report, const QualitySettings& settings, cons
   if (!errorIsNear(report, target))
     missed = fmt::format("a mean error of {:.3g} % was asked for, and {:.2g} % ({:.2g} to {:.2g}) was reached",
                          100 * target.error, 100 * error.mean, 100 * error.low, 100 * error.high);
+  if (!missed.empty() && report.highlights && report.highlights->mean > kMuchOfTarget * target.error)
+    missed += fmt::format(
+        " (the highlights of indirect light err by {:.2g} %, which no rays mend: --gi reference traces them)",
+        100 * report.highlights->mean);
   if (const SmudgeEstimate* s = report.finestSmudges(); smudgesAreFar(report, target))
     missed +=
         fmt::format("{}smudges of {:.3g} % were asked for, and {:.2g} % ({:.2g} to {:.2g}) were reached",
