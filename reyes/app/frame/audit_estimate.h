@@ -22,8 +22,9 @@ struct ErrorEstimate {
   bool tells() const { return mean >= noise; }
 };
 
-/// The noise is subtracted in squares, because it and the error are independent. The interval is that of the percentile
-/// bootstrap (Efron and Tibshirani 1993) over the places, with random numbers that depend on nothing.
+/// The noise is subtracted in squares, as if it were the same share of the error at all places. The interval is that of
+/// the percentile bootstrap (Efron and Tibshirani 1993) over the places, with random numbers that depend on nothing.
+/// Its upper end is that of errors from which no noise is subtracted: noise that lies elsewhere adds less to them.
 ErrorEstimate estimateError(std::span<const AuditedError> places);
 
 /// Two independent estimates of the error of a block that should be smooth, relative to the right light there: positive

@@ -69,6 +69,21 @@ TEST(ErrorEstimate, HasAnIntervalThatHoldsTheTruthInNineOfTenCases) {
   EXPECT_LT(held, 0.96 * kTrials);
 }
 
+// Noise that is smaller than each error makes some larger and others smaller, so nothing should be subtracted.
+TEST(ErrorEstimate, HasAnIntervalThatHoldsErrorsWhichNoiseDoesNotEnlarge) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 0.02f);
+  std::vector<AuditedError> places;
+  for (size_t i = 0; i < 10 * kPlaces; ++i) {
+    const float a = noise(random), b = noise(random);
+    places.push_back({std::abs(0.04f + 0.5f * (a + b)), 0.5f * std::abs(a - b)});
+  }
+  const ErrorEstimate e = estimateError(places);
+  EXPECT_LT(e.mean, 0.039);
+  EXPECT_LT(e.low, e.mean);
+  EXPECT_GT(e.high, 0.04);
+}
+
 TEST(ErrorEstimate, NamesTheErrorThatOneInAHundredExceeds) {
   std::vector<AuditedError> places(1000, {0.01f, 0});
   for (size_t i = 0; i < 20; ++i) places[50 * i].error = 0.5f;
