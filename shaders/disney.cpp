@@ -76,6 +76,10 @@ class Glossy {
   static constexpr int kMostTimes = 4;
 
  public:
+  /// Area lights have this many times their samples where the eye sees metal, whose highlights of them are many times
+  /// as bright as its mean.
+  static constexpr int kTimesOfMetal = 4;
+
   /// `rays`: least number of directions that mirror the scene; 0: only lights are mirrored.
   Glossy(const rsl::Batch& b, const rsl::Vec3Array& N, const rsl::Vec3Array& V, const Inputs& inputs, int rays)
       : b_(b),
@@ -196,6 +200,7 @@ void shadeWith(const rsl::Batch& b, const Coordinates& at, const Opacity& Oi) {
   Glossy glossy(b, N, V, inputs, shiny ? static_cast<int>(rsl::clamp(reflections(g), 0, 1 << 14)) : 0);
   TmIlluminance sample = tmIlluminanceDefaults();
   if (!glossy.isAnyMatte()) sample.category = "-indirect";  // metal has no diffuse light, which may cost many rays
+  if (shiny && b.rayDepth() == 0 && metallic.isEvenlyAbove(1, g)) sample.times = Glossy::kTimesOfMetal;
   while (b.illuminance(sample)) {
     for (int i : b) {
       const Vec3 L = rsl::get(sample.direction, i), H = rsl::normalize(L + V[i]);

@@ -55,6 +55,10 @@ struct MappedFloat {
         mapName(nameOfMap),
         map(nameOfMap, "", "picture that multiplies it"),
         channel(channelName, 0, "the channel of that picture, 0 the first") {}
+  /// Tells whether the object has the same value everywhere, and at least this one.
+  bool isEvenlyAbove(float least, const TmGrid* g) const {
+    return value.isUniform(g) && *map(g) == 0 && value(g, 0) >= least;
+  }
 };
 
 /// Its values at the points of a batch.

@@ -55,7 +55,9 @@ vec2 sampleAt(const Batch& batch, const BoundLight& light, int i, int sample, in
 
 int samplesOf(const BoundLight& light, const Batch& batch) {
   if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
-  return shareOfBranch(batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples, 1, batch.context);
+  const int own = batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
+  const int times = light.can(TM_LIGHT_AREA) ? batch.lights.times() : 1;
+  return shareOfBranch(std::min(own * times, kMostLightSamples), 1, batch.context);
 }
 
 LightSample sampleOf(Batch& batch, const BoundLight& light, const TmGrid& g, ShadowRays rays, int question) {

@@ -123,6 +123,7 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   Batch& place = remoteBatchOf(batch, g, query);
   const std::string_view category = query.category ? query.category : "";
   const LightList& indirect = place.scene.indirect;
+  place.lights.multiplySamples(query.times);
   std::vector<LightSample>& samples = place.lights.samples(
       place, std::any_of(indirect.begin(), indirect.end(), [&](int light) {
         return place.group.lights().contains(light) && inCategory(place.scene.light(light).category, category);

@@ -36,6 +36,10 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
+void Lights::multiplySamples(int64_t times) {
+  if (!evaluated_ && !indirectEvaluated_) times_ = static_cast<int>(std::clamp<int64_t>(times, 1, kMostLightSamples));
+}
+
 const LightSets* Lights::setsOf(const Batch& batch) const {
   return group_ || batch.context.onlyLightGroup || !batch.points ? nullptr : batch.group.choice->sets(batch.scene);
 }

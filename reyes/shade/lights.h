@@ -72,6 +72,9 @@ class Lights {
   const std::string* group() const { return group_; }
   /// Sets the request, before the first query. `request` must outlive this object.
   void ask(const LightRequest& request) { request_ = &request; }
+  /// Multiplies the samples of area lights, before the first query; later it does nothing.
+  void multiplySamples(int64_t times);
+  int times() const { return times_; }
   /// Writes the sum of the ambient lights at the active points of `asking`.
   void ambient(Batch& batch, const TmGrid& asking, TmVec3 out);
   /// Returns all samples of all lights that have a direction, in the order of Attributes::lights. They are unshadowed
@@ -120,6 +123,7 @@ class Lights {
   void forEachSetWithExtent(Batch& batch, const Body& body) const;
   bool evaluated_ = false, indirectEvaluated_ = false, ambientAsked_ = false;
   std::deque<std::vector<TmValue>> params_;
+  int times_ = 1;
   int lobes_ = 0;  ///< Number of lobes that along() has been given.
   std::deque<ShadowTally> tallies_;
   std::map<const LightSet*, LightCuts> cuts_;

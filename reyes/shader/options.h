@@ -187,6 +187,10 @@ typedef struct TmIlluminance {
   TmConstVec3 Cl;        /* shadowed, divided by the number of samples */
   const uint8_t* lit;    /* 1: active, and the sample comes from the cone */
   int32_t isIndirect, nondiffuse, nonspecular;
+  /* The question again. Area lights take so many times the samples that they have by themselves, if nothing has asked
+   * for light at these points before; 0: once. A surface that shows nothing but highlights needs more of them. It must
+   * be the same for all points of an object, or pictures depend on buckets. */
+  int64_t times;
 } TmIlluminance;
 
 static inline TmIlluminance tmIlluminanceDefaults(void) {

@@ -8,7 +8,7 @@ namespace {
 class EvenPaths : public ShadeServices {
  public:
   mutable int paths = 0;
-  bool followsLobes() const override { return true; }
+  bool followsLobes(const ShadeContext&) const override { return true; }
   void indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way, const IndirectQuery&,
                      const ShadeContext&, TmVec3 out) const override {
     EXPECT_LT(way.number, way.count);
@@ -76,6 +76,16 @@ TEST_F(LobePaths, AreOneForEachPointUnlessThePictureAsksForMore) {
   branched.branches = 16;
   EXPECT_NEAR(mean(1000, branched).x, reflectance(), 0.02f * reflectance());
   EXPECT_LE(paths.paths, 4 * 1000) << "a share of those of the first point";
+}
+
+TEST_F(LobePaths, AreAsManyAsTheOtherPathsOfAnAudit) {
+  light("indirectlight");
+  ShadeContext audit;
+  audit.auditPaths = 32;
+  audit.auditsLobes = true;
+  EXPECT_NEAR(mean(200, audit).x, reflectance(), 0.02f * reflectance());
+  EXPECT_LE(paths.paths, 200 * 32);
+  EXPECT_GT(paths.paths, 190 * 32);
 }
 
 TEST_F(LobePaths, WhereTheyBranchAgainFewGoOnAndTheMeanStays) {
