@@ -30,7 +30,7 @@ const TmShader* rslAreaLight(const TmShader& light);
 /// that point alone would bring. The light of the area is the mean of that.
 bool isMean(const TmShader& light);
 /// Tells whether the shader is such a form, and with these parameters may shine from both sides of its geometry: it is
-/// not one whose illuminate() has a cone around N of at most a right angle.
+/// not one whose illuminate() has a cone around N of at most a right angle. It computes the cone, which takes time.
 bool shinesAllRound(const TmShader& light, const TmValue* params);
 
 /// The value of a shader's parameter, for other shaders that ask for it.

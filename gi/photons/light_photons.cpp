@@ -240,7 +240,7 @@ void AreaPhotons::emitBy(const StartNumbers& xi, std::vector<EmittedPhoton>& out
     out[i].normal = Nl;
     out[i].passesLamp = allRound;
     probe.Pl.push_back(ray.origin);
-    probe.Nl.push_back(Nl);
+    probe.Nl.push_back(front);
     probe.P.push_back(ray.origin + ray.direction);
     probe.N.push_back(-ray.direction);
   }

@@ -94,7 +94,7 @@ struct Code {
   bool asksPlace = false;                        ///< True for a light that reads P, its own place.
   bool onGeometry = false;                       ///< True if the host gives P, on the geometry of AreaLightSource.
   bool allRound = false;                         ///< True for a light that may shine to the back of its geometry.
-  std::vector<int32_t> coneAngles;               ///< Parameters: it does so too if one is more than a right angle.
+  int32_t cone = -1;                             ///< The register of the widest cone that is computed; -1: none is.
   uint32_t capabilities = 0;                     ///< TmCapability, found by analysis (passes/passes.h).
   int32_t varyingFloats = 0, uniformFloats = 0;  ///< The slots of both kinds that the machine needs.
 };

@@ -59,11 +59,7 @@ bool isMean(const TmShader& light) {
 
 bool shinesAllRound(const TmShader& light, const TmValue* params) {
   const HostedShader* shader = HostedShader::of(light);
-  if (!shader || !shader->lowered().onGeometry) return false;
-  // A default that the shader computes is not known here, and NaN.
-  return shader->lowered().allRound || std::ranges::any_of(shader->lowered().coneAngles, [&](int32_t k) {
-           return !(params[k].c[0] && *params[k].c[0] <= kRightAngle);
-         });
+  return shader && shader->shinesAllRound(params);
 }
 
 std::vector<std::string> rslTexts(const TmShader& shader) {

@@ -1,4 +1,4 @@
-// Defaults that a shader computes when it runs: the host may ask for such a value alone.
+// Values that a shader computes when it runs: the host may ask for a default, or for a lamp's cone, alone.
 #include <algorithm>
 
 #include "reyes/rsl/globals.h"
@@ -66,6 +66,21 @@ std::optional<RslValue> HostedShader::fixedValue(size_t parameter, const TmValue
   const Program& program = defaultProgram(parameter, params);
   if (!isFixed(program.code())) return std::nullopt;
   return valueOf(program, LonePoint(params).grid, static_cast<int32_t>(parameter));
+}
+
+// A lamp whose cone depends on the point shines from its front, as nearly all do.
+bool HostedShader::shinesAllRound(const TmValue* params) const {
+  if (!lowered_.onGeometry || lowered_.allRound || lowered_.cone < 0) return lowered_.onGeometry && lowered_.allRound;
+  const size_t count = lowered_.parameters.size();
+  Messages told;  // dropped, since the whole code has given the same messages
+  Code code = coneOf(lowered_);
+  optimise(code, std::vector<bool>(count + 1, false), told);
+  if (!isFixed(code)) return false;
+  std::vector<TmValue> values(params, params + count);
+  const float none = 0;
+  values.emplace_back().c[0] = &none;
+  const RslValue cone = valueOf(Program(std::move(code)), LonePoint(values.data()).grid, static_cast<int32_t>(count));
+  return cone.floats[0] > kRightAngle;
 }
 
 }  // namespace tomales::compiler

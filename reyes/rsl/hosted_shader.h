@@ -34,6 +34,8 @@ class HostedShader {
   /// These two are rslValue() and rslFixedValue() (reyes/rsl_host.h). Pre: computes(parameter).
   RslValue value(size_t parameter, const TmGrid& grid) const;
   std::optional<RslValue> fixedValue(size_t parameter, const TmValue* params) const;
+  /// This is shinesAllRound() (reyes/rsl_host.h).
+  bool shinesAllRound(const TmValue* params) const;
   /// Returns the part of a surface that assigns P, as a displacement (passes/moving.cpp); null if the shader does not.
   const HostedShader* displacement() const { return displacement_.get(); }
 

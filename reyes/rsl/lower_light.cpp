@@ -100,14 +100,16 @@ bool isNormal(const Expr& e) {
 
 }  // namespace
 
-// A lamp whose cone is computed shines from its front, as nearly all do: `illuminate(P, N, PI / 2)`.
 void Lowering::noteCone(const Expr& axis, int32_t angle) {
+  if (!code_.onGeometry) return;
   const Register& r = code_.registers[static_cast<size_t>(angle)];
   const bool turned = axis.kind == ExprKind::Unary && axis.text == "-" && isNormal(*axis.args[0]);
-  if (turned || (r.origin == Origin::Constant && r.floats[0] > kRightAngle))
+  if (turned || (r.origin == Origin::Constant && r.floats[0] > kRightAngle)) {
     code_.allRound = true;
-  else if (r.origin == Origin::Parameter)
-    code_.coneAngles.push_back(r.index);
+  } else if (r.origin != Origin::Constant) {
+    if (code_.cone < 0) code_.cone = add({.origin = Origin::Variable});
+    copy(code_.cone, compute(Op::Max, {code_.cone, angle}));
+  }
 }
 
 void Lowering::illuminate(const Stmt& s) {

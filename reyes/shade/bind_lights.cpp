@@ -163,6 +163,7 @@ std::unique_ptr<BoundLight> Binder::light(const LightCall& call, int index) {
   light->nondiffuse = isSetEverywhere(*bound, TM_ROLE_NONDIFFUSE);
   light->nonspecular = isSetEverywhere(*bound, TM_ROLE_NONSPECULAR);
   light->visible = bound->number(TM_ROLE_VISIBLE, 1) != 0;
+  light->allRound = shinesAllRound(*bound->shader, bound->values.data());
   setLighting(*light, log_);
   light->shadows = call.castsShadows || light->can(TM_LIGHT_SHADOWED);
   setShadows(*light, shadowMaps_, log_);

@@ -28,6 +28,7 @@ struct BoundLight {
   float shadowVariance = 0;  ///< The variance of transmission at which shadow rays may stop; 0: all rays are traced.
   bool visible = true;       ///< Area lights are seen by the camera, and all lights by specular rays.
   bool nondiffuse = false, nonspecular = false;  ///< True if diffuse() or specular() ignores it.
+  bool allRound = false;                         ///< It shines from both sides of its geometry, and through it.
   IndirectQuery query;                           ///< Set for TM_LIGHT_INDIRECT alone.
   IndirectRequest request;                       ///< The light's request to the whole frame.
   bool filters = false;                          ///< It brings the light of another indirect light.

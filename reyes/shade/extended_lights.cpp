@@ -16,10 +16,6 @@ constexpr float kWorthOfSkySample = 0.25f;
 
 bool hasExtent(const BoundLight& light) { return light.can(TM_LIGHT_AREA) || light.can(TM_LIGHT_SKY); }
 
-bool shinesAllRound(const BoundLight& light) {
-  return shinesAllRound(*light.bound->shader, light.bound->values.data());
-}
-
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
   const int n = g.count;
   const int all = batch.tm.count;  // lightsource() may ask at neighbours
@@ -35,8 +31,8 @@ EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g) {
 bool sampleEmitter(Batch& batch, const BoundLight& light, TmGrid& g, const EmitterPoints& points) {
   const ShadeServices* services = batch.scene.services;
   if (!services) return false;
-  if (shinesAllRound(light) ? !services->sampleWholeEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)
-                            : !services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points))
+  if (light.allRound ? !services->sampleWholeEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points)
+                     : !services->sampleEmitter(light.index, g.count, view(g.P), g.xi0, g.xi1, points))
     return false;
   for (int i = 0; i < g.count; ++i) set(g.L, i, get(g.Pl, i) - get(g.P, i));
   return true;
@@ -66,7 +62,7 @@ bool meetLight(Batch& batch, const BoundLight& light, TmGrid& g, const LobeDirec
   if (light.can(TM_LIGHT_AREA)) {
     const ShadeServices* services = batch.scene.services;
     if (!services) return false;
-    if (shinesAllRound(light))
+    if (light.allRound)
       services->meetWholeEmitter(light.index, layer, g.count, view(g.P), lobe.L, points);
     else
       services->meetEmitter(light.index, g.count, view(g.P), lobe.L, points);
@@ -95,7 +91,7 @@ void radianceToSample(const TmGrid& g, const float* pdf) {
 
 void meanToRadiance(const TmGrid& g, const ShadeServices* services, const BoundLight& light) {
   const float area = services ? services->emitterArea(light.index) : 0.0f;
-  const bool allRound = shinesAllRound(light);
+  const bool allRound = light.allRound;
   for (int i = 0; i < g.count; ++i) {
     const vec3 L = get(g.L, i), N = get(g.Nl, i);
     const float distance2 = dot(L, L), facing = -dot(L, N) / std::sqrt(distance2),

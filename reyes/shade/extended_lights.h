@@ -17,8 +17,6 @@ struct LobeDirections {
 };
 
 bool hasExtent(const BoundLight& light);
-/// Tells whether the light shines from both sides of its geometry, and through it.
-bool shinesAllRound(const BoundLight& light);
 
 /// Makes room for the points on the emitter, which the grid then shows the shader.
 EmitterPoints emitterPoints(Batch& batch, const BoundLight& light, TmGrid& g);

@@ -50,22 +50,20 @@ void ShadingSystem::areaLightRadiance(const ShadePoints& points, std::vector<vec
   const BoundLight* light = impl_->lights[static_cast<size_t>(index)].get();
   if (!light || !light->can(TM_LIGHT_AREA) || !light->visible || !isMeant(*light, context)) return;
   LightProbe seen;
-  std::vector<size_t> front;
-  const bool allRound = shinesAllRound(*light);
+  std::vector<size_t> shining;
   for (int i = 0; i < points.count(); ++i) {
-    const vec3 P = points.position(i), I = points.get3(kIx, i), outside = points.get3(kNgx, i),
-               N = allRound && dot(I, outside) > 0 ? -outside : outside;
-    if (dot(I, N) >= 0) continue;
-    front.push_back(static_cast<size_t>(i));
+    const vec3 P = points.position(i), I = points.get3(kIx, i), N = points.get3(kNgx, i);
+    if (!light->allRound && dot(I, N) >= 0) continue;
+    shining.push_back(static_cast<size_t>(i));
     add(seen, P - I, I, P, N);
   }
   radiance.assign(static_cast<size_t>(points.count()), vec3(0.0f));
-  if (!front.empty()) probe(index, seen);
+  if (!shining.empty()) probe(index, seen);
   if (!seen.finite)
     impl_->log.report(Severity::Warning, "light-not-finite", light->bound->where,
                       fmt::format("{}: shader \"{}\" returned NaN or infinity; the lamp is dark there",
                                   light->bound->user, light->bound->shader->name));
-  for (size_t k = 0; k < front.size(); ++k) radiance[front[k]] = seen.Cl[k];
+  for (size_t k = 0; k < shining.size(); ++k) radiance[shining[k]] = seen.Cl[k];
 }
 
 }  // namespace tomales

@@ -144,7 +144,7 @@ void Lights::evaluate(Batch& batch, const BoundLight& light) {
     if (area && !sampleEmitter(batch, light, g, points)) return;
     if (sky) sampleSky(batch, light, g, points);
     if (!runWithExtent(batch, light, g)) return;
-    const bool allRound = area && shinesAllRound(light);
+    const bool allRound = area && light.allRound;
     if (isMean(*light.bound->shader) && !allRound) meanToRadiance(g, batch.scene.services, light);
     darkenNonFinite(batch, *light.bound, g);
     if (area || sky) {
@@ -196,7 +196,7 @@ void Lights::along(Batch& batch, const LobeDirections& lobe, TmVec3 Cl) {
   forEachWithExtent(batch, [&](const BoundLight& light) {
     if (!shines(light, batch)) return;
     int layer = 0;
-    while (alongOne(batch, light, lobe, layer, Cl) && shinesAllRound(light)) ++layer;
+    while (alongOne(batch, light, lobe, layer, Cl) && light.allRound) ++layer;
   });
   forEachSetWithExtent(batch, [&](const LightsOfSet& some) { alongDrawn(batch, some, lobe, Cl); });
   ++lobes_;
@@ -239,7 +239,7 @@ bool Lights::alongOne(Batch& batch, const BoundLight& light, const LobeDirection
     points.pdf[i] = (a * a + b * b) / b;  // b over its weight by the power heuristic
   }
   const float reach = light.can(TM_LIGHT_AREA) ? batch.scene.services->emitterReach(light.index) : 0;
-  const bool before = reach != 0 && !shinesAllRound(light);
+  const bool before = reach != 0 && !light.allRound;
   addMet(batch, light, g, before ? beforeEmitter(batch, g, reach) : g.L, points.pdf, lobe, layer, Cl);
   return true;
 }
@@ -256,7 +256,7 @@ void Lights::addMet(Batch& batch, const BoundLight& light, const TmGrid& g, TmVe
                      {light.can(TM_LIGHT_SOLAR), lobe.sample, lobe.samples},
                      nullptr,
                      kMostLightSamples + lobes_ + layer * kMostLobes};
-  if (shinesAllRound(light)) sample.rays.through = light.index;
+  if (light.allRound) sample.rays.through = light.index;
   if (light.shadows && batch.scene.services) {
     sample.pending = batch.arena.bytes(g.count);
     std::copy_n(g.active, g.count, sample.pending);

@@ -65,7 +65,7 @@ LightKind LightTraits::kind() const {
   return LightKind::Point;
 }
 
-bool LightTraits::shinesAllRound() const { return light_ && tomales::shinesAllRound(*light_); }
+bool LightTraits::shinesAllRound() const { return light_ && light_->allRound; }
 
 const TmShader* LightTraits::shader() const { return light_ ? light_->bound->shader : nullptr; }
 

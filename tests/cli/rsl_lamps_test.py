@@ -98,6 +98,20 @@ for name in ("quarter", "named"):
     behind = render(name, lamp(name, points=UP), 0, "light-useless")
     t.expect(all(p[0] == 0 for p in behind.values()), f"  {name}: a cone of a right angle does not shine behind the lamp")
 expect("turned", render("turned", lamp("turned", points=UP)), lambda px, py, square: 2 / square, "another axis counts")
+# A cone counts as it is when the shader has computed it.
+t.write("degrees.sl", "light degrees(float angle = 90) { float wide = radians(angle); illuminate(P, N, wide) { Cl = 2 / (L . L); } }\n")
+t.write("assigned.sl", "light assigned(float angle = 90) { if (angle > 0) angle = radians(angle); illuminate(P, N, angle) { Cl = 2 / (L . L); } }\n")
+t.write("chosen.sl", "light chosen(float angle = 90, half = angle / 2) { if (angle > 90) { illuminate(P, N, radians(2 * half)) { Cl = 2 / (L . L); } }"
+        " else illuminate(P, N, PI / 2) { Cl = 2 / (L . L); } }\n")
+for name in ("degrees", "assigned", "chosen"):
+    all_round = render(name, lamp(name, '"angle" [180] "float __samples" [64]', points=UP))
+    expect(name, all_round, lambda px, py, square: 2 / square, "a cone that is computed reaches behind the lamp")
+    behind = render(name, lamp(name, points=UP), 0, "light-useless")
+    t.expect(all(p[0] == 0 for p in behind.values()), f"  {name}: and does not if it is a right angle")
+# The eye sees a lamp on the side to which it shines: pi Cl d^2 / (A cosine).
+for name, points, radiance in (("turned", DOWN, math.pi / 2), ("turned", UP, 0), ("even", UP, math.pi / 2), ("even", DOWN, math.pi / 2)):
+    seen = render("seen", lamp(name, '"float __visible" [1]', points=points).replace('Attribute "visibility" "int camera" [0]', 'Surface "constant" Color [0 0 0]'))
+    t.expect(abs(seen[4, 4][0] - radiance) < 0.05, f"  the eye sees {name} with {radiance:.2f} ({seen[4, 4][0]:.3f})")
 # What a light says of its sample is that of the point on the lamp.
 t.write("placed.sl", 'light placed(float across = xcomp(transform("world", P))) { illuminate(P) { Cl = 1; } }\n')
 t.write("hears.sl", 'surface hears() { illuminance(P, N, PI / 2) { float x = 7; lightsource("across", x); Ci += x * x * Cl; } Oi = 1; }\n')
@@ -144,12 +158,14 @@ t.expect_run("a light that stands elsewhere", [t.write("still.rib", SCENE % lamp
 walls = ('AttributeBegin Attribute "visibility" "int camera" [0] Patch "bilinear" "P" [1 1 0  1 -1 0  1 1 -3  1 -1 -3]'
          ' Patch "bilinear" "P" [-1 1 0  -1 -1 0  -1 1 -3  -1 -1 -3] AttributeEnd')
 round_lamp = SCENE % (LAMP % ("Translate 0 0 -1.5 ", "even", "", "") + "\n" + walls)
-t.write("photons.rib", round_lamp.replace('Patch "bilinear" "P" []', "Sphere .5 -.5 .5 360"))
-counted = []
-for method in (["progressive", "--photons", "200000"], ["reference", "--samples", "200"]):
-    t.expect_run(method[0], ["photons.rib", "-o", "photons.exr", "--gi", *method, "--bounces", "1", "--indirect-only"], 0)
-    counted.append(sum(p[0] for p in pixels(t.folder / "photons.exr").values()))
-t.expect(counted[1] > 1 and abs(counted[0] / counted[1] - 1) < 0.04, f"  all photons of a lamp leave it ({counted})")
+ball_of_light = round_lamp.replace('Patch "bilinear" "P" []', "Sphere .5 -.5 .5 360")
+for what, scene in (("lamp", ball_of_light), ("lamp that shines behind it", SCENE % (lamp("turned", points=UP) + "\n" + walls))):
+    t.write("photons.rib", scene)
+    counted = []
+    for method in (["progressive", "--photons", "200000"], ["reference", "--samples", "200"]):
+        t.expect_run(method[0], ["photons.rib", "-o", "photons.exr", "--gi", *method, "--bounces", "1", "--indirect-only"], 0)
+        counted.append(sum(p[0] for p in pixels(t.folder / "photons.exr").values()))
+    t.expect(counted[1] > 1 and abs(counted[0] / counted[1] - 1) < 0.04, f"  all photons of a {what} leave it ({counted})")
 
 # solar() without a direction takes light from everywhere above. E/pi of a sky that is 1 is 1 (RISpec 3.2, section 13.4).
 t.write("sky.sl", "light sky(color shade = 1) { solar() { Cl = shade; } }\n")

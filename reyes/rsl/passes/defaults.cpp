@@ -1,5 +1,5 @@
-// Defaults that a shader computes when it runs. Other shaders may ask for such a value when this shader is not running,
-// or for other points, so the part of the code that computes it can run alone.
+// Values that a shader computes when it runs: defaults of parameters, and a lamp's cone. Others may ask for such a
+// value when this shader is not running, or for other points, so the part of the code that computes it can run alone.
 #include <algorithm>
 #include <set>
 
@@ -37,6 +37,16 @@ void keepFor(Block& body, std::set<int32_t> needed) {
   body = std::move(kept);
 }
 
+/// Drops what is written to the shader's globals, its results.
+void dropResults(Block& body, const Code& code) {
+  std::erase_if(body, [&](Instruction& i) {
+    for (Block& inner : i.blocks) dropResults(inner, code);
+    return !i.out.empty() && i.blocks.empty() && std::ranges::all_of(i.out, [&](int32_t r) {
+      return code.registers[static_cast<size_t>(r)].origin == Origin::Global;
+    });
+  });
+}
+
 }  // namespace
 
 Code defaultOf(const Code& lowered, size_t parameter) {
@@ -49,6 +59,20 @@ Code defaultOf(const Code& lowered, size_t parameter) {
     if (out.registers[r].origin == Origin::Parameter && out.registers[r].index == static_cast<int32_t>(parameter))
       wanted.insert(static_cast<int32_t>(r));
   keepFor(out.body, wanted);
+  return out;
+}
+
+Code coneOf(const Code& lowered) {
+  Code out = lowered;
+  for (Parameter& p : out.parameters) p.output = false;  // nobody takes them
+  Register& cone = out.registers[static_cast<size_t>(out.cone)];
+  cone.origin = Origin::Parameter;
+  cone.index = static_cast<int32_t>(out.parameters.size());
+  Parameter& value = out.parameters.emplace_back();
+  value.type = {Base::Float};
+  value.told = true;
+  dropResults(out.body, out);
+  keepFor(out.body, {out.cone});
   return out;
 }
 
