@@ -24,6 +24,32 @@ void shadeSubstitute(const TmGrid* g) {
 
 }  // namespace
 
+namespace {
+
+/// Splits "myPointLight2_key" into "my", "point", "light" and "key".
+std::vector<std::string> wordsOf(const std::string& name) {
+  std::vector<std::string> out;
+  const auto isUpper = [&](size_t i) { return i < name.size() && name[i] >= 'A' && name[i] <= 'Z'; };
+  const auto isLower = [&](size_t i) { return i < name.size() && name[i] >= 'a' && name[i] <= 'z'; };
+  bool inWord = false;
+  for (size_t i = 0; i < name.size(); ++i) {
+    const bool begins = isUpper(i) && (!isUpper(i - 1) || isLower(i + 1)), isLetter = isUpper(i) || isLower(i);
+    if (isLetter && (!inWord || begins)) out.emplace_back();
+    if (isLetter) out.back() += name.substr(i, 1);
+    inWord = isLetter;
+  }
+  for (std::string& word : out) word = lowerCase(word);
+  return out;
+}
+
+/// Tells whether a word is `part`, also where it is written in one with "light" behind it or "shadow" before it, as in
+/// "mydomelight" and "shadowspot".
+bool means(std::string_view word, const std::string& part) {
+  return word == part || word == "shadow" + part || word.ends_with(part + "light") || word.ends_with(part + "lights");
+}
+
+}  // namespace
+
 const TmShader& substituteSurface() {
   static const rsl::Shader shader(TM_SURFACE, "(missing shader)", "stands in for a missing surface shader", 0,
                                   shadeSubstitute, {});
@@ -40,14 +66,17 @@ const char* standardLightFor(const ShaderCall& call, bool area) {
                 {"ambient", "ambientlight"},
                 {"occlusion", "ambientlight"},
                 {"sky", "ambientlight"},
+                {"dome", "ambientlight"},
+                {"env", "ambientlight"},
                 {"environment", "ambientlight"},
                 {"spot", "spotlight"},
                 {"distant", "distantlight"},
                 {"sun", "distantlight"},
                 {"point", "pointlight"}};
-  const std::string name = lowerCase(call.name);
+  const std::vector<std::string> words = wordsOf(call.name);
   for (const auto& [part, light] : kNames)
-    if (name.find(part) != name.npos) return area && *light ? "arealight" : light;
+    if (std::any_of(words.begin(), words.end(), [&](const std::string& word) { return means(word, part); }))
+      return area && *light ? "arealight" : light;
   if (area) return "arealight";
   const auto gives = [&](const char* parameter) { return findParam(call.params, parameter) != nullptr; };
   if (gives("coneangle") || gives("conedeltaangle") || gives("beamdistribution")) return "spotlight";

@@ -141,9 +141,30 @@ TEST_F(Binding, AStandardLightWithItsParametersStandsInForOneThatIsMissing) {
 
 TEST_F(Binding, AnAreaLightStandsInForAMissingLightWithGeometryUnlessItBringsIndirectLight) {
   ShaderCall call;
-  for (const auto& [name, instead] : {std::pair("nosuch", "arealight"), {"spotty", "arealight"}, {"mycaustic", ""}}) {
+  for (const auto& [name, instead] : {std::pair("nosuch", "arealight"), {"spotty", "arealight"}, {"myCaustic", ""}}) {
     call.name = name;
     EXPECT_STREQ(standardLightFor(call, true), instead) << name;
+  }
+}
+
+TEST_F(Binding, WholeWordsOfAMissingLightsNameSayWhichStandardLightItIs) {
+  ShaderCall call;
+  for (const auto& [name, instead] : {std::pair("spot", "spotlight"),
+                                      {"keySpot2", "spotlight"},
+                                      {"RTSpotLight", "spotlight"},
+                                      {"shadowspot", "spotlight"},
+                                      {"my_point_light", "pointlight"},
+                                      {"mypointlights", "pointlight"},
+                                      {"mydomelight", "ambientlight"},
+                                      {"sun1", "distantlight"},
+                                      {"environment", "ambientlight"},
+                                      {"env2light", "ambientlight"},
+                                      {"spotty", "ambientlight"},
+                                      {"viewpoint", "ambientlight"},
+                                      {"Sunday", "ambientlight"},
+                                      {"baker", "ambientlight"}}) {
+    call.name = name;
+    EXPECT_STREQ(standardLightFor(call, false), instead) << name;
   }
 }
 
