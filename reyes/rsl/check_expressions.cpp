@@ -217,7 +217,7 @@ void Checker::retarget(Expr& e, const Type& wanted) {
     case ExprKind::Conditional:
       retarget(*e.args[1], wanted);
       retarget(*e.args[2], wanted);
-      if (e.args[1]->type == e.args[2]->type) e.type = e.args[1]->type;
+      e.type = e.args[e.args[1]->type.is(Base::Float) ? 2 : 1]->type;
       return;
     case ExprKind::Comma:
       retarget(*e.args.back(), wanted);
@@ -247,13 +247,27 @@ void Checker::retarget(Expr& e, const Type& wanted) {
   }
 }
 
+namespace {
+
+/// Tells whether a number is that of a picture, or computed from one by what would do the same to each component of a
+/// colour.
+bool showsPicture(const Expr& e) {
+  if (!e.type.is(Base::Float) || e.text == "!") return false;
+  bool keeps = e.kind == ExprKind::Unary || e.kind == ExprKind::Binary || e.kind == ExprKind::Conditional;
+  if (e.kind == ExprKind::Call && e.builtin) {
+    const Emit emit = e.builtin->emit;
+    if (emit == Emit::Texture || emit == Emit::Environment || emit == Emit::Shadow || emit == Emit::List) return true;
+    keeps = info(e.builtin->op).signature[0] == '*';  // mix, clamp, min, max
+  }
+  return keeps && std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& part) { return showsPicture(*part); });
+}
+
+}  // namespace
+
 // N * noise(P) moves points along N: as a factor of a triple, noise means a number. The colour of a picture stays a
 // colour.
 void Checker::retargetFactor(Expr& e, const Type& wanted) {
-  if (e.kind == ExprKind::Tuple || e.type.isTriple()) return retarget(e, wanted);
-  if (e.kind != ExprKind::Call || !e.builtin || !wanted.is(Base::Color)) return;
-  const Emit emit = e.builtin->emit;
-  if (emit == Emit::Texture || emit == Emit::Environment || emit == Emit::Shadow || emit == Emit::List)
+  if (e.kind == ExprKind::Tuple || e.type.isTriple() || (wanted.is(Base::Color) && showsPicture(e)))
     retarget(e, wanted);
 }
 

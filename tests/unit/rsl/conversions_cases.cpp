@@ -91,6 +91,14 @@ Cases conversionCases() {
        [](float i) { return -rsl::noise3(at(i)); }},
       {"what is wanted goes down through a choice", "c = s < 3 ? noise(P) : noise(s);",
        [](float i) { return i < 3 ? rsl::noise3(at(i)) : rsl::noise3(i); }},
+      {"what is wanted goes down to one side of a choice", "c = s < 3 ? 0 : noise(P);",
+       [](float i) {
+         return i < 3 ? Vec3{0, 0, 0} : rsl::noise3(at(i));
+       }},
+      {"what is wanted goes down to the other side of a choice", "c = s < 3 ? noise(P) : 1;",
+       [](float i) {
+         return i < 3 ? rsl::noise3(at(i)) : Vec3{1, 1, 1};
+       }},
       {"noise beside a triple is a number", "w = N * noise(P);",
        [](float i) {
          return rsl::noise(at(i)) * Vec3{0, 0, -1};
@@ -124,6 +132,29 @@ Cases conversionCases() {
       {"a texture in minus a color's product is a color", "c = -(color (1, 2, 3) * texture(\"a\", s, t));",
        [](float i) {
          return Vec3{-i, 2 * i, 0};
+       }},
+      {"a texture in brackets in a color's product is a color",
+       "c = color (1, 2, 3) * (1 - .5 * texture(\"a\", s, t));",
+       [](float i) {
+         return Vec3{1 - i / 2, 2 + i, 3};
+       }},
+      {"a texture that is mixed in a color's product is a color",
+       "c = color (1, 2, 3) * mix(texture(\"a\", s, t), 0, .5);",
+       [](float i) {
+         return Vec3{i / 2, -i, 0};
+       }},
+      {"a texture that is chosen in a color's product is a color",
+       "c = color (1, 2, 3) * (s < 3 ? 0 : texture(\"a\", s, t));",
+       [](float i) {
+         return i < 3 ? Vec3{0, 0, 0} : Vec3{i, -2 * i, 0};
+       }},
+      {"a texture in a function of a number stays one", "c = color (1, 2, 3) * sqrt(texture(\"a\", s, t));",
+       [](float i) {
+         return std::sqrt(i) * Vec3{1, 2, 3};
+       }},
+      {"noise at a texture in a color's product is a number", "c = color (1, 2, 3) * noise(texture(\"a\", s, t));",
+       [](float i) {
+         return rsl::noise(i) * Vec3{1, 2, 3};
        }},
       {"a texture cast to a number in a color's product", "c = color (1, 2, 3) * float texture(\"a\", s, t);",
        [](float i) {
