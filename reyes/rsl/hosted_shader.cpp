@@ -69,6 +69,14 @@ void refuseHuge(const Code& code, Messages& messages) {
                  static_cast<int32_t>(largest->name.size()));
 }
 
+/// Tells whether a shader on a surface takes derivatives. Those of parameters are 0 in code whose parameters are
+/// uniform, and are asked of the host where primitive variables give them.
+bool takesDerivatives(const Code& lowered) {
+  bool found = false;
+  forEach(lowered.body, [&](const Instruction& i) { found |= i.op == Op::StepU || i.op == Op::StepV; });
+  return found && (lowered.kind == ShaderKind::Surface || lowered.kind == ShaderKind::Volume);
+}
+
 std::unique_ptr<const Program> programOf(Code code, const std::vector<bool>& varying, Messages& messages) {
   optimise(code, varying, messages);
   return std::make_unique<Program>(std::move(code));
@@ -97,6 +105,7 @@ HostedShader::HostedShader(Code lowered, Messages& messages) : lowered_(std::mov
   host.structBytes = sizeof host;
   host.kind = kindOf(lowered_.kind);
   host.capabilities = code().capabilities;
+  if (takesDerivatives(lowered_)) host.capabilities |= TM_DERIVATIVES;
   host.paramCount = static_cast<int32_t>(params_.size());
   host.paramBytes = sizeof(TmParamDecl);
   host.params = params_.data();

@@ -11,7 +11,8 @@ bool GroupTraits::opaque() const {
 
 bool GroupTraits::wantsSteps() const {
   const auto wants = [](const BoundShaderPtr& s) { return s && (s->can(TM_DERIVATIVES) || s->can(TM_NEIGHBOURS)); };
-  return wants(group_.surface) || wants(group_.indirectSurface);
+  return wants(group_.surface) || wants(group_.indirectSurface) || wants(group_.atmosphere) || wants(group_.interior) ||
+         wants(group_.exterior);
 }
 
 bool GroupTraits::keepsOpacity() const { return group_.surface->can(TM_KEEPS_OPACITY); }

@@ -93,6 +93,12 @@ t.write("other.sl", plain("renamed", "color(0, 0, 1)"))
 scene("single", 'Surface "other"')
 render("a file with one shader of another name", "single")
 expect_all("single", BLUE, "is that shader")
+(t.folder / "swapped").mkdir()
+t.write("swapped/near.sl", plain("away", "color(1, 0, 0)"))
+t.write("swapped/away.sl", plain("near", "color(0, 1, 0)"))
+scene("swapped", 'Surface "near"', 'Option "searchpath" "shader" ["swapped"]')
+render("a shader in a file of another name, beside a file of its own name", "swapped")
+expect_all("swapped", GREEN, "is found by its own name")
 for compiled in ("green.slo", "green.sdr", "green.slx", "green.sl", "/home/somebody/shaders/green.slo"):
     scene("compiled", f'Surface "{compiled}"')
     render(f'"{compiled}" stands for green.sl', "compiled", 0, *(["shader-elsewhere"] if "/" in compiled else []))
@@ -319,6 +325,13 @@ light beam(point from = (0, 0, 0); point to = (0, 0, 1)) { illuminate (from, to 
 scene("kinds", 'LightSource "lamp" 1 "color shade" [0 1 0] Atmosphere "halved" Surface "matte"', 'Imager "swapped"')
 render("a light, a volume and an imager of one file", "kinds")
 expect_all("kinds", (0, 0, 0.5), "do what they say")
+# Primitive variables have derivatives, also where nothing else asks for any. Over the square, u goes from 0 to 1.
+t.write("slopes.sl", "surface slopes(varying float w = 0; varying point q = 0;) { Oi = 1; Ci = color(Du(w), -Dv(w), length(Du(q))); }\n"
+        "volume haze(varying float w = 0; varying point q = 0;) { Oi = 1; Ci = color(Du(w), -Dv(w), length(Du(q))); }\n")
+for kind, shaders in (("surface", 'Surface "slopes"'), ("volume", 'Surface "constant" Atmosphere "haze"')):
+    scene("slopes", shaders, "", '"varying float w" [.25 .5 0 .25] "varying point q" [0 0 0  .5 0 0  0 0 0  .5 0 0]')
+    render(f"derivatives in a {kind} of primitive variables alone", "slopes")
+    expect_all("slopes", (0.25, 0.25, 0.5), "are theirs")
 scene("beam", 'LightSource "beam" 1 Surface "matte"')
 render("a spotlight", "beam")
 lit = picture("beam")
