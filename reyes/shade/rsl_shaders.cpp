@@ -127,25 +127,47 @@ Names& names() {
   return all;
 }
 
+/// Reads folders until they hold too many files.
+class Folders {
+ public:
+  /// Returns the .sl files of the folder, sorted.
+  std::vector<fs::path> sourcesIn(const std::string& folder) {
+    std::vector<fs::path> out;
+    std::error_code none;
+    for (auto it = fs::directory_iterator(folder, none); !none && it != fs::directory_iterator(); it.increment(none))
+      if (it->path().extension() == ".sl" && ++looked_ < kMostFiles) out.push_back(it->path());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+ private:
+  static constexpr int kMostFiles = 5000;
+  int looked_ = 0;
+};
+
+void addHolders(const std::vector<fs::path>& sources, const std::string& name, std::vector<std::string>& out) {
+  for (const fs::path& file : sources)
+    if (names().has(file.string(), name)) out.push_back(file.string());
+}
+
 std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& folders) {
   std::vector<std::string> out;
   std::error_code none;
-  for (const std::string& folder : folders)
-    if (const fs::path file = fs::path(folder) / (name + ".sl"); fs::is_regular_file(file, none))
-      out.push_back(file.string());
+  Folders all;
+  const std::string shader = fs::path(name).filename().string();
+  for (const std::string& folder : folders) {
+    const fs::path file = fs::path(folder) / (name + ".sl");
+    if (!fs::is_regular_file(file, none)) continue;
+    // Other compilers name what they make after the shader, so a file's name means less than the shader's.
+    if (!names().has(file.string(), shader)) addHolders(all.sourcesIn(file.parent_path().string()), shader, out);
+    out.push_back(file.string());
+  }
   if (!out.empty()) return out;
   // Exporters name files relative to the folder of the project.
-  if (const size_t slash = name.rfind('/'); slash != std::string::npos)
-    return candidates(name.substr(slash + 1), folders);
-  constexpr int kMostFiles = 5000;  // a folder with more files is not searched to its end
-  int looked = 0;
+  if (shader != name) return candidates(shader, folders);
   for (const std::string& folder : folders) {
-    std::vector<fs::path> here;
-    for (auto it = fs::directory_iterator(folder, none); !none && it != fs::directory_iterator(); it.increment(none))
-      if (it->path().extension() == ".sl" && ++looked < kMostFiles) here.push_back(it->path());
-    std::sort(here.begin(), here.end());
-    for (const fs::path& file : here)
-      if (names().has(file.string(), name)) out.push_back(file.string());
+    const std::vector<fs::path> here = all.sourcesIn(folder);
+    addHolders(here, name, out);
     // Some systems do not distinguish capitals in file names, and scenes come from there.
     for (const fs::path& file : here)
       if (lowerCase(file.stem().string()) == lowerCase(name)) out.push_back(file.string());
