@@ -4,7 +4,7 @@
 // It is written under another name in the same folder and renamed when it is complete. Of two processes that write the
 // same file, the last one to finish wins as a whole. A target that is a symbolic link stays one, and the file that it
 // points to is replaced, as with `>` in a shell. Other hard links to the old file, and programs that read it, keep the
-// old contents, so a program's input may be its output. finish() calls fsync() before the rename, because otherwise the
+// old contents. finish() calls fsync() before the rename, because otherwise the
 // file could be empty after a power failure. Threads: plain object.
 #pragma once
 #include <cstdio>
@@ -71,12 +71,12 @@ bool moveFinished(const std::filesystem::path& from, const std::filesystem::path
 /// A TemporaryFolder for moveFinished() belongs beside it.
 std::filesystem::path throughLinks(const std::filesystem::path& target);
 
-/// Returns one name for all paths that lead to the same file, be it there or not yet. (Hard links are files of their
-/// own: writing to one leaves the others.)
+/// Returns one name for all paths that lead to the same file by links or folders, be it there or not yet. Hard links
+/// have names of their own, because finish() replaces one of them and leaves the others.
 std::string placeOf(const std::filesystem::path& target);
 
 /// Tells whether `target`, by whatever name, is one of these. A command that would replace one of its own inputs says
-/// so before.
+/// so before. Hard links of an input count too, because logs are written in place.
 bool isAmong(const std::filesystem::path& target, const std::vector<std::string>& files);
 
 }  // namespace tomales
