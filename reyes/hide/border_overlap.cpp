@@ -42,10 +42,13 @@ class BorderCell {
 
  private:
   vec2 corner(int vertex) const { return camera_.raster(grid_.position(0, vertex)); }
+  /// A point on the border belongs to the side to which raster.h moves samples.
   bool beyond(PatchEdge edge, int from, int to, int inside, const vec2& at) const {
     if (!(joined_ & edge)) return false;
     const vec2 p = corner(from), along = corner(to) - p, in = corner(inside) - p, here = at - p;
-    return (along.x * in.y - along.y * in.x) * (along.x * here.y - along.y * here.x) < 0;
+    float side = along.x * here.y - along.y * here.x;
+    if (side == 0) side = along.x != 0 ? -along.x : -along.y;
+    return (along.x * in.y - along.y * in.x) * side < 0;
   }
 
   const RasterGrid& raster_;

@@ -49,7 +49,8 @@ def scenes_of(folder):
 
 def is_dark(program, picture):
     channels = json.loads(subprocess.run([program, "info", "--json", picture], capture_output=True, text=True, check=True).stdout)["channels"]
-    return all(c["max"] <= 0 for c in channels if c["name"] in "RGB")
+    colors = [c["max"] for c in channels if c["name"] in "RGB"]
+    return bool(colors) and max(colors) <= 0
 
 
 def keep(picture, kept):

@@ -45,6 +45,22 @@ TEST(BorderOverlap, NeighboursOfOneSurfaceCountOnce) {
   }
 }
 
+TEST(BorderOverlap, SamplesOnTheBorderBelongToOneOfFourSheets) {
+  World w;
+  w.add();
+  w.freeze();
+  Rasters sheets;
+  for (int k = 0; k < 4; ++k) {
+    const float x = k % 2 ? 16.5f : -1.5f, y = k / 2 ? 16.5f : -1.5f;
+    const Surface sheet = [=](float u, float v, int) { return at(x + 18 * u, y + 18 * v, 10); };
+    const int open = kAllEdges & ~(k % 2 ? kEdgeU0 : kEdgeU1) & ~(k / 2 ? kEdgeV0 : kEdgeV1);
+    sheets.push_back(
+        raster(w, joined(makeGrid(0, static_cast<uint32_t>(k + 1), 9, 9, sheet), static_cast<uint8_t>(open)), false));
+  }
+  const DeepTile t = hide(w, SamplePattern(1, 1, false, 1), kRect, sheets);
+  for (const DeepPixel& p : t.pixels) ASSERT_EQ(layersOf(t, p), 1);
+}
+
 TEST(BorderOverlap, LayersOfOneObjectCountEach) {
   World w;
   w.add();
