@@ -53,7 +53,7 @@ bool toFile(Batch& batch, const TmGrid* g, const char* file, TmConstVec3 P, TmCo
 }
 
 // Bakes each point once: not for the neighbours that serve derivatives, nor for hits of rays, nor where a shader runs
-// again for a light group.
+// again for a light group. A scene that gives no file's name wants none baked or read, as with pictures.
 int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOptions* given, TmConstVec3 P,
                TmConstVec3 N, const TmChannel* values, int32_t valueCount) {
   Batch& batch = batchOf(host);
@@ -61,6 +61,7 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOpt
   if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.purpose != Purpose::Picture ||
       batch.lights.restricted())
     return 1;
+  if (!*file) return 0;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, givenOptions(batch, tmCloudDefaults(), given), query)) return 0;
@@ -73,6 +74,7 @@ int32_t texture3d(void* host, const TmGrid* all, const char* file, const TmCloud
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
   forActive(all, [&](int i) { found[i] = 0; });
+  if (!*file) return 0;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is looked up here");
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, givenOptions(batch, tmCloudDefaults(), given), query)) return 0;

@@ -202,6 +202,17 @@ TEST_F(CloudCalls, PointsAreBakedInTheSpaceOfTheFileWithTheRadiusOfTheirMicropol
   EXPECT_EQ(clouds.baked[1].value, 0.25f);
 }
 
+TEST_F(CloudCalls, NothingIsBakedOrFoundWhereNoFileIsNamed) {
+  for (const char* shader : {"baking", "finding"}) {
+    surface(shader, {text("file", "")});
+    system().setClouds(&clouds);
+    shade(row());
+    shading.reset();
+  }
+  EXPECT_TRUE(clouds.baked.empty());
+  EXPECT_TRUE(log.entries().empty());
+}
+
 TEST_F(CloudCalls, EachPointIsBakedOnceForTheCameraAlone) {
   surface("bakingwide", {text("file", "left.ptc")});
   light("distantlight", {text("__group", "key")});
