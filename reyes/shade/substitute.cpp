@@ -22,10 +22,6 @@ void shadeSubstitute(const TmGrid* g) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Splits "myPointLight2_key" into "my", "point", "light" and "key".
 std::vector<std::string> wordsOf(const std::string& name) {
   std::vector<std::string> out;
