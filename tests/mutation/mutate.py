@@ -76,7 +76,8 @@ class Bench:
         self.limit_s = {}
         # `a:b-c:d` means a and b without c and d.
         self.stages = [f"{owner.only}-{owner.slow}" if owner.slow else owner.only] + ([owner.slow] if owner.slow else [])
-        self.unit.linked(owner.program, objects, self._folder())
+        if not self.unit.linked(owner.program, objects, self._folder()):
+            raise SystemExit(f"{owner.program} cannot be linked")
         for stage in self.stages:
             start = children_s()
             if failed := self._failing(stage, 600):
@@ -101,7 +102,8 @@ class Bench:
         objects = self.unit.objects_with(fault, self._folder())
         if not objects:
             return "no program" if objects is None else "same program"
-        self.unit.linked(self.owner.program, objects, self._folder())
+        if not self.unit.linked(self.owner.program, objects, self._folder()):
+            return "no program"
         for stage in self.stages:
             if failed := self._failing(stage, self.limit_s[stage]):
                 return failed

@@ -127,14 +127,16 @@ class Unit:
         return changed and [*changed.values(), *(self.object_of(source) for source in self.sources if source not in changed)]
 
     def linked(self, program, objects, folder):
-        """Links the program with these objects instead of the unit's library. Returns the program."""
+        """Links the program with these objects instead of the unit's library. Returns the program, or None if that fails, as
+        when a fault changes the type of a function that other files call."""
         command = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", "-s", program], capture_output=True, text=True, check=True).stdout
         command = next(part for part in command.split("&&") if f" -o {program} " in part)
         words = shlex.split(command)
         words = [word for word in words if word != self.library]
         words[words.index("-o") + 1] = str(folder / program)
         words[1:1] = map(str, objects)
-        subprocess.run(words, cwd=self.build, check=True)
+        if subprocess.run(words, cwd=self.build, stderr=subprocess.DEVNULL).returncode != 0:
+            return None
         for beside in [*self.build.glob("tomales_*"), *self.build.glob("*.so")]:  # The program looks for these in its own folder.
             if not (folder / beside.name).exists():
                 (folder / beside.name).symlink_to(beside)
