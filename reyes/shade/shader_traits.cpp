@@ -1,6 +1,7 @@
 #include "reyes/shader_traits.h"
 
 #include "reyes/shade/bound_scene.h"
+#include "reyes/shade/extended_lights.h"
 #include "reyes/shade/roles.h"
 
 namespace tomales {
