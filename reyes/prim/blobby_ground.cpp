@@ -131,7 +131,7 @@ FieldRange BlobGround::over(const Box& box) const {
     y1 = map.rows;
   }
   if (x1 < 0 || y1 < 0 || x0 >= map.columns || y0 >= map.rows) return {0, 0};
-  const bool inside = !behind && x0 >= 0 && y0 >= 0 && x1 < map.columns && y1 < map.rows;
+  const bool inside = x0 >= 0 && y0 >= 0 && x1 < map.columns && y1 < map.rows;
   const FieldRange depths = depthsOver(x0, x1, y0, y1);
   FieldRange out = depths.lo < HUGE_VAL ? repulsion_.over(depths.lo - far, depths.hi - near) : FieldRange{0, 0};
   if (!inside || !(depths.hi < HUGE_VAL)) out = {std::min(0.0, out.lo), std::max(0.0, out.hi)};
