@@ -149,7 +149,7 @@ void traceEnvironment(const TmGrid* g, const TmTextureOptions& options, TmConstV
                       TmVec3 color) {
   TmRayOptions rays = tmRayDefaults();
   rays.samples = options.samples;
-  rays.coneAngle = std::min(options.sblur, 1.0f) * kPi;
+  rays.coneAngle = options.sblur * kPi;
   g->call->trace(g->host, g, &rays, view(g->P), direction, out.y ? out : color, nullptr);
   const int channel = std::clamp(options.channel, 0, 2);
   if (!out.y) forActive(g, [&](int i) { out.x[i] = get(color, i)[channel]; });

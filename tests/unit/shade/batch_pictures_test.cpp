@@ -75,6 +75,29 @@ TEST_F(BatchPictures, AnEnvironmentIsFilteredOverTheAngleOfItsCorners) {
   EXPECT_NEAR(c[0].y, 0, 0.01f);
 }
 
+TEST_F(BatchPictures, AnEnvironmentThatIsTracedHasAConeByItsBlurAndItsChannelAlone) {
+  float widest = 0;
+  services.seen = [&](const vec3& direction) {
+    widest = std::max(widest, std::acos(std::min(1.0f, -direction.z / glm::length(direction))));
+    return vec3(0.25f, 0.5f, 2);
+  };
+  const auto widthAt = [&](float blur) {
+    widest = 0;
+    const std::vector<vec3> c = asked(2, [&](sl::Surface& s) {
+      const auto traced = [&](int channel) {
+        return fenvironment("raytrace", channel, Vector(0, 0, -1), "blur", blur, "samples", 256);
+      };
+      s.Ci = Color(traced(0), traced(1), traced(9));
+    });
+    expectColor(c[0], {0.25f, 0.5f, 2});
+    return widest;
+  };
+  EXPECT_LT(widthAt(0), 1e-3f);
+  EXPECT_NEAR(widthAt(0.1f), 0.1f * kPi, 0.02f);
+  EXPECT_NEAR(widthAt(0.3f), 0.3f * kPi, 0.02f);
+  EXPECT_NEAR(widthAt(0.9f), kPi / 2, 0.1f) << "no ray goes into the surface";
+}
+
 // Every other column of texels is 1, and one in four so large that an average over it says nothing.
 TEST_F(BatchPictures, PicturesAreLookedUpOnOtherLevelsAndWithoutWhatIsTooLarge) {
   const std::string path = writePicture(test::temporary("tomales_columns.exr"), 256, 256, "RGB", [](int x, int) {

@@ -79,6 +79,12 @@ TEST_F(LightUses, FewPointsAreNoPicture) {
   EXPECT_NE(said("light-glare"), "");
 }
 
+TEST_F(LightUses, TheFirstPointOfEveryBatchCounts) {
+  sun(100);
+  for (int batch = 0; batch < 10; ++batch) shadePaper(1);
+  EXPECT_NE(said("light-glare"), "");
+}
+
 TEST_F(LightUses, OfSeveralSamplesTheSumCounts) {
   scene.options.displays.clear();
   services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {

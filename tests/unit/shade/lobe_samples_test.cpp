@@ -1,0 +1,49 @@
+// How many directions of its own a surface is told to draw.
+#include "reyes/shader.h"
+#include "tests/unit/shade/stage.h"
+
+namespace tomales {
+namespace {
+
+int told = -1;
+void counting(const TmGrid* g) { told = g->call->lobeSamples(g->host, g); }
+const rsl::Shader countingShader(TM_SURFACE, "counting", "", 0, counting, {});
+
+class LobeSamples : public Stage {
+ protected:
+  LobeSamples() {
+    static const TmShader* const shaders[] = {countingShader};
+    static const TmShaderLibrary library = rsl::libraryOf(shaders);
+    registry.addLibrary(&library, "test");
+    surface("counting");
+  }
+  int samples() {
+    told = -1;
+    shadeOne();
+    return told;
+  }
+};
+
+TEST_F(LobeSamples, AreNoneIfNoLightHasAnExtent) {
+  light("distantlight");
+  light("pointlight");
+  light("ambientlight");
+  EXPECT_EQ(samples(), 0);
+}
+
+TEST_F(LobeSamples, AreHalfOfThoseOfTheLightThatHasMost) {
+  light("arealight", {number("samples", 4)}, true);
+  light("arealight", {number("samples", 9)}, true);
+  EXPECT_EQ(samples(), 5);
+}
+
+TEST_F(LobeSamples, CountNoLightThatHighlightsLeaveOutOrThatIsOff) {
+  light("arealight", {number("samples", 4)}, true);
+  light("arealight", {number("samples", 9), number("__nonspecular", 1)}, true);
+  light("arealight", {number("samples", 16)}, true);
+  attributes.lights.switchOff(2);
+  EXPECT_EQ(samples(), 2);
+}
+
+}  // namespace
+}  // namespace tomales
