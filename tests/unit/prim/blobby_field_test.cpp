@@ -128,6 +128,28 @@ TEST(BlobField, WithinABoxTheShorterProgramHasTheSameBitsAndNoLeafThatDoesNotRea
   EXPECT_GT(dropped, 30u);
 }
 
+TEST(BlobField, CarriesAPointAsItsLeavesMoveEachByItsWeight) {
+  const auto field = [](BlobOp op, const dvec3& ball, const dvec3& from, const dvec3& to, double radius) {
+    BlobField out({{glm::dmat3(1), -ball, dvec3(0), dvec3(0), radius}, {glm::dmat3(1), dvec3(0), from, to, radius}});
+    out.addLeaf(0);
+    out.addLeaf(1);
+    out.addOperation(op, std::array<uint32_t, 2>{0, 1});
+    return out;
+  };
+  const auto carried = [&](BlobOp op, const dvec3& p) {
+    return field(op, {0, -0.3, 0}, {-1, 0.3, 0}, {3, 0.3, 0}, 1)
+        .carried(p, field(op, {7, 0, 0}, {0, 5, 0}, {0, 5, 8}, 2));
+  };
+  // Twice as wide about its own line. A quarter of the way along the segment is z = 2 in the other.
+  const dvec3 p(0, 0.1, 0.2), byBall(7, 0.8, 0.4), bySegment(0, 4.6, 2.4);
+  const auto fall = [](double distance2) { return std::pow(1 - distance2, 3); };
+  const double ball = fall(0.4 * 0.4 + 0.2 * 0.2), segment = fall(0.2 * 0.2 + 0.2 * 0.2);
+  EXPECT_LT(glm::length(carried(BlobOp::Add, p) - (ball * byBall + segment * bySegment) / (ball + segment)), 1e-12);
+  EXPECT_LT(glm::length(carried(BlobOp::Maximum, p) - bySegment), 1e-12);
+  EXPECT_LT(glm::length(carried(BlobOp::Minimum, p) - byBall), 1e-12);
+  EXPECT_EQ(carried(BlobOp::Add, {9, 9, 9}), dvec3(9, 9, 9)) << "no leaf is there";
+}
+
 TEST(BlobGround, TheRangeOverABoxHoldsItsForceEverywhereInTheBox) {
   for (const bool perspective : {false, true})
     forBoxes(2.3, 1500, [&](const Box& box, uint32_t i) { expectRangeHoldsTheField(groundOf(perspective), box, i); });

@@ -250,6 +250,32 @@ TEST(Tubes, InterpolateAlongVAndEndsTakeTheEndsValues) {
   EXPECT_EQ(prim->facing(kEye, {0, 0, 1}, true), nullptr);
 }
 
+TEST(Tubes, ParametersRunAlongTheWholeCurveAndStandStillOnItsEnds) {
+  Problems problems;
+  const PrimPtr prim = makeTubes(false, bezierBasis(), {4}, false,
+                                 {positions({0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}),
+                                  floats("constantwidth", Storage::Constant, ValueType::Float, {0.2f})},
+                                 problems);
+  int beginnings = 0, ends = 0;
+  float reached = 0;
+  for (uint32_t patch = 0; patch < prim->patchCount(); ++patch) {
+    const float u = 0.25f, v[] = {0, 0.5f, 1};
+    for (const float at : v) {
+      float su = -1, sv = -1;
+      prim->surfaceParameters(patch, 1, &u, &at, &su, &sv);
+      const vec3 p = sampleAt(*prim, patch, u, at).p;
+      EXPECT_EQ(su, u);
+      EXPECT_NEAR(sv, p.x / 3, 1e-6f) << "the line runs evenly along x";
+      reached = std::max(reached, sv);
+      beginnings += at == 0.5f && sv == 0;
+      ends += at == 0.5f && sv == 1;
+    }
+  }
+  EXPECT_EQ(reached, 1);
+  EXPECT_EQ(beginnings, 1);
+  EXPECT_EQ(ends, 1);
+}
+
 TEST(NastyCurves, DegenerateOnesAreSound) {
   const auto sound = [](const PrimPtr& prim) { expectSoundEverywhere(*seen(prim)); };
   sound(curves(true, bezierBasis(), {4}, false, {positions({0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0})}));  // doubled ends

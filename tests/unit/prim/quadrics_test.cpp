@@ -120,6 +120,34 @@ TEST(Quadric, SeamsOfAClosedSweepHaveTheSameBits) {
   }
 }
 
+TEST(Quadric, OnlyWholeSpheresAndWholeDisksAreRound) {
+  Problems problems;
+  const auto sphere = [&](float r, float low, float high, float sweep) {
+    return makeSphere(r, low, high, sweep, {}, problems)->round();
+  };
+  for (const float r : {2.0f, -2.0f}) {
+    const std::optional<RoundShape> whole = sphere(r, -2, 2, 360);
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->radius, 2);
+    EXPECT_EQ(whole->center, vec3(0));
+    EXPECT_EQ(whole->axis, vec3(0));
+  }
+  EXPECT_TRUE(sphere(2, -3, 3, -360));
+  EXPECT_FALSE(sphere(2, -2, 1.9f, 360));
+  EXPECT_FALSE(sphere(2, -1.9f, 2, 360));
+  EXPECT_FALSE(sphere(2, -2, 2, 350));
+  EXPECT_FALSE(makeTorus(0, 1, 0, 360, 360, {}, problems)->round());
+  EXPECT_FALSE(makeTorus(2, 1, -90, 90, 360, {}, problems)->round());
+  const std::optional<RoundShape> disk = makeDisk(3, 2, 360, {}, problems)->round();
+  ASSERT_TRUE(disk);
+  EXPECT_EQ(disk->center, vec3(0, 0, 3));
+  EXPECT_EQ(disk->radius, 2);
+  EXPECT_EQ(disk->axis, vec3(0, 0, 1));
+  EXPECT_FALSE(makeDisk(3, 2, 180, {}, problems)->round());
+  EXPECT_FALSE(makeCone(3, 2, 360, {}, problems)->round());
+  EXPECT_FALSE(makeHyperboloid({2, 0, 1}, {1, 0, 1}, 360, {}, problems)->round()) << "a ring";
+}
+
 TEST(Quadric, PolesAreOnePoint) {
   EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.1f, 1).p, vec3(0, 0, 2));
   EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.7f, 0).p, vec3(0, 0, -2));

@@ -79,6 +79,40 @@ TEST(Teapot, ItsHalvesMirrorEachOtherAndItsPatchesMeetSmoothly) {
   EXPECT_EQ(creased, 0);
 }
 
+// Sums over Newell's table, which any slip in it would change. The pot is open, so they depend on the origin.
+TEST(Teapot, EachOfItsPartsHasTheAreaAndTheMomentsOfNewellsData) {
+  Problems problems;
+  const PrimPtr prim = makeTeapot({}, problems);
+  struct Part {
+    const char* name;
+    uint32_t first, count;
+    double area, volume;
+    glm::dvec3 moment;
+  };
+  for (const Part& part : {Part{"body", 0, 12, 31.00016, 18.96901, {0, 0, 40.51910}},
+                           Part{"lid", 12, 8, 6.76244, 5.15744, {0, 0, 17.67953}},
+                           Part{"bottom", 20, 4, 7.56914, 0.47506, {0, 0, 0.28076}},
+                           Part{"handle", 24, 4, 3.28591, 0.38842, {-7.90481, 0, 5.38679}},
+                           Part{"spout", 28, 4, 4.27063, 0.96806, {10.27264, 0, 6.40296}}}) {
+    double area = 0, volume = 0;
+    glm::dvec3 moment(0);
+    constexpr int kSide = 8;
+    for (uint32_t patch = part.first; patch < part.first + part.count; ++patch)
+      for (int k = 0; k < kSide * kSide; ++k) {
+        const auto place = [](int i) { return (static_cast<float>(i) + 0.5f) / kSide; };
+        const Sample s = sampleAt(*prim, patch, place(k % kSide), place(k / kSide));
+        const glm::dvec3 p(s.p), n = glm::cross(glm::dvec3(s.du), glm::dvec3(s.dv)) / double{kSide * kSide};
+        area += glm::length(n);
+        volume += glm::dot(p, n) / 3;
+        moment += glm::length(n) * p;
+      }
+    EXPECT_NEAR(area, part.area, 1e-3) << part.name;
+    EXPECT_NEAR(volume, part.volume, 1e-3) << part.name;
+    EXPECT_LT(glm::length(moment - part.moment), 1e-3)
+        << part.name << ' ' << moment.x << ' ' << moment.y << ' ' << moment.z;
+  }
+}
+
 TEST(Teapot, IsOpenOnlyWhereItsPartsEnd) {
   Problems problems;
   const PrimPtr prim = makeTeapot({}, problems);
