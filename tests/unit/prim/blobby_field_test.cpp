@@ -169,6 +169,30 @@ TEST(BlobGround, TheRangeOverASmallBoxAboveTheGroundIsNarrow) {
   }
 }
 
+TEST(BlobGround, TheRangeOverAWideBoxIsThatOfTheDepthsBelowIt) {
+  for (const bool perspective : {false, true}) {
+    const BlobGround ground = groundOf(perspective);
+    for (uint32_t i = 0; i < 200; ++i) {
+      const dvec3 half(random(0.05, 0.4, i, 71), random(0.05, 0.3, i, 72), 0.01),
+          center(random(-0.45, 0, i, 73), random(-0.5, 0, i, 74), random(0.05, 0.2, i, 75));
+      const FieldRange range = ground.over({center - half, center + half});
+      // The ground is between 0.1 lower and 0.4 lower than z = 0 there, and the box is 0.02 high.
+      EXPECT_LT(range.hi, 0.3 + 1e-9) << "no more than the bulge";
+      EXPECT_GT(range.lo, -0.01 / (center.z - 0.01)) << "no more than the force at its lower side";
+    }
+  }
+}
+
+TEST(BlobGround, ReachesToEverySideOfThePicture) {
+  const BlobGround ground = groundOf(false);
+  // Places just within the picture, in the outermost halves of its texels, and boxes around them.
+  for (const dvec3& p : {dvec3(-0.99, 0.3, 0), dvec3(0.99, 0.15, 0), dvec3(-0.3, 0.99, 0), dvec3(-0.3, -0.99, 0.1)}) {
+    EXPECT_NE(ground.at(p).value, 0);
+    for (uint32_t i = 0; i < 20; ++i) expectRangeHoldsTheField(ground, {p - 0.02 / (i + 1), p + 0.001}, i);
+    for (uint32_t i = 0; i < 20; ++i) expectRangeHoldsTheField(ground, {p - 0.001, p + 0.02 / (i + 1)}, i);
+  }
+}
+
 TEST(BlobGround, TheGradientIsThatOfDifferences) {
   for (const bool perspective : {false, true})
     for (uint32_t i = 0; i < 300; ++i)

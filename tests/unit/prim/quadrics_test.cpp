@@ -148,6 +148,17 @@ TEST(Quadric, OnlyWholeSpheresAndWholeDisksAreRound) {
   EXPECT_FALSE(makeHyperboloid({2, 0, 1}, {1, 0, 1}, 360, {}, problems)->round()) << "a ring";
 }
 
+TEST(Quadric, MoreThanOneTurnIsOneTurn) {
+  Problems problems;
+  for (const float sign : {-1.0f, 1.0f}) {
+    const PrimPtr once = makeTorus(3, 1, 0, 360, sign * 360, {}, problems),
+                  twice = makeTorus(3, 1, 0, 360, sign * 720, {}, problems);
+    const Sample a = sampleAt(*once, 0, 0.3f, 0.4f), b = sampleAt(*twice, 0, 0.3f, 0.4f);
+    EXPECT_EQ(a.p, b.p);
+    EXPECT_EQ(a.du, b.du);
+  }
+}
+
 TEST(Quadric, PolesAreOnePoint) {
   EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.1f, 1).p, vec3(0, 0, 2));
   EXPECT_EQ(sampleAt(*ballOfTwo(), 0, 0.7f, 0).p, vec3(0, 0, -2));
