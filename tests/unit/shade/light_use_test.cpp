@@ -118,6 +118,49 @@ TEST_F(LightUses, ALampWhoseShadowCoversAllIsNamed) {
   EXPECT_NE(said("light-useless").find("lies in its shadow"), std::string::npos) << said("light-useless");
 }
 
+TEST_F(LightUses, ALampInItsOwnShadowIsNamedWithTheSmallestObjectAroundIt) {
+  light("pointlight", {point("from", {0, 0, 3})}).castsShadows = true;
+  services.visible = [](const vec3&, const vec3&) { return 0.0f; };
+  Problems problems;
+  // The largest is the ground of the test's points. The last is smaller, and beside the lamp.
+  for (const auto& [name, radius, x] : {std::tuple{"house", 9.0f, 0.0f}, std::tuple{"bulb", 0.5f, 0.1f},
+                                        std::tuple{"shade", 0.7f, 0.0f}, std::tuple{"stand", 0.2f, 0.3f}}) {
+    Object o;
+    Attributes a = attributes;
+    a.name = name;
+    o.shapes = {makeSphere(radius, -radius, radius, 360, {}, problems)};
+    o.attributes = std::make_shared<const Attributes>(a);
+    mat4 place(1.0f);
+    place[3] = {x, 0, 3, 1};
+    o.worldFromObject = Motion::still(place);
+    scene.objects.push_back(o);
+  }
+  shadePaper(1);
+  EXPECT_NE(said("light-useless").find("lies in its shadow; it stands within the bounds of \"bulb\""),
+            std::string::npos)
+      << said("light-useless");
+}
+
+TEST_F(LightUses, WhatGlowsLightsAWorldOfIndirectLight) {
+  light("indirectlight");
+  system();
+  Attributes glowing = attributes;
+  glowing.surface = std::make_shared<const ShaderCall>(call("constant", {}));
+  Object glow = scene.objects[0];
+  glow.attributes = std::make_shared<const Attributes>(glowing);
+  scene.objects.push_back(glow);
+  scene.freeze();
+  shading = std::make_unique<ShadingSystem>(scene, registry, &services, log, stats);
+  shadePaper(1);
+  EXPECT_EQ(said("light-none"), "");
+}
+
+TEST_F(LightUses, IndirectLightAloneIsDark) {
+  light("indirectlight");
+  shadePaper(1);
+  EXPECT_NE(said("light-none"), "");
+}
+
 TEST_F(LightUses, ALampIsOfUseWhereItComesToOnePoint) {
   sun(1).castsShadows = true;
   services.visible = [](const vec3& P, const vec3&) { return P.x > 0 ? 1.0f : 0.0f; };
