@@ -81,6 +81,24 @@ TEST_F(RslMessages, TheAirLearnsTheOutputsOfTheSurfaceBehindIt) {
   expectColor(out.color(1), {1.5f, 0.5f, 2});
 }
 
+TEST_F(RslMessages, ARayGetsTheOutputsOfTheSurfaceThatItAsksForInTheirSize) {
+  write("lit",
+        "surface lit(output varying float o = 0; output varying color c = 0; output varying vector w = 0;)\n"
+        "{ o = 3 * u; c = color (u, 2, 4); w = vector \"current\" (u, 5, 6); Oi = 1; Ci = 0; }");
+  surface("lit");
+  const std::vector<RayOutput> wanted = {{"surface:c", 3},       {"surface:o", 1}, {"surface:o", 3},
+                                         {"surface:nothing", 1}, {"o", 1},         {"surface:w", 3}};
+  ShadeContext context;
+  context.outputs = &wanted;
+  const ShadedPoints out = shade(points({vec3(0, 0, 5), vec3(0, 0, 5)}), context);
+  ASSERT_EQ(out.variables.size(), 3u + 1 + 3 + 1 + 1 + 3);
+  const auto at = [&](size_t k) { return out.variables[k][1]; };
+  EXPECT_EQ(vec3(at(0), at(1), at(2)), vec3(0.5f, 2, 4));
+  EXPECT_EQ(at(3), 1.5f);
+  for (size_t k = 4; k < 9; ++k) EXPECT_TRUE(std::isnan(at(k))) << k << " is unknown or of another size";
+  EXPECT_EQ(vec3(at(9), at(10), at(11)), vec3(0.5f, 5, 6));
+}
+
 TEST_F(RslMessages, TheSurfaceLearnsWhatTheDisplacementLeftInTheGeometry) {
   write("bump", "displacement bump(output varying color stain = 0;) { stain = 1; }");
   write("stained", "surface stained() { color c = -1; displacement(\"stain\", c); Oi = 1; Ci = c; }");
