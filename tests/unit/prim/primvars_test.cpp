@@ -9,6 +9,7 @@ TEST(Primvars, StArrivesSplit) {
   const auto vars =
       takePrimvars({floats("st", Storage::Varying, ValueType::Float, {0, 1, 2, 3, 4, 5, 6, 7}, 2)}, {}, problems);
   ASSERT_EQ(vars.size(), 2u);
+  for (const Primvar& v : vars) EXPECT_TRUE(v.width == 1 && v.type == ValueType::Float);
   EXPECT_EQ(vars[0].name, "s");
   EXPECT_EQ(vars[0].values, (std::vector<float>{0, 2, 4, 6}));
   EXPECT_EQ(vars[1].name, "t");

@@ -47,10 +47,14 @@ TEST(Expression, FollowsItsGrammar) {
                            "!(defined(m) && $m + 1 > 2)",
                            "1 != 1 == 0",
                            "1 < 2 == 1",
+                           "2 <= 2",
+                           "1 <= 2",
+                           "2 >= 2",
+                           "3 >= 2",
                            "true"})
     EXPECT_TRUE(isTrue(text)) << text;
-  for (const char* text :
-       {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n", "defined(m) && $m == 1", "0 && ($m || 1)"})
+  for (const char* text : {"0", "''", "false", "$n != 3", "$name =~ 'x*'", "1 && 0", "!$n", "3 <= 2", "1 >= 2", "2 < 2",
+                           "2 > 2", "defined(m) && $m == 1", "0 && ($m || 1)"})
     EXPECT_FALSE(isTrue(text)) << text;
   for (const std::string& text :
        {std::string(""), std::string("1 +"), std::string("$m"), std::string("0 || $m"), std::string("1 && $m"),
