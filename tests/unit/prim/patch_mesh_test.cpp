@@ -136,6 +136,54 @@ TEST(PatchMesh, OnlyTheOutlineIsOpen) {
             kAllEdges);  // pieces that do not meet
 }
 
+TEST(PatchMesh, OfRationalPatchesIsOpenAtItsOutlineOnly) {
+  std::vector<float> pw;
+  for (int j = 0; j < 7; ++j)
+    for (int i = 0; i < 7; ++i) {
+      const float w = 1 + 0.1f * static_cast<float>((3 * i + j) % 5), x = static_cast<float>(i),
+                  y = static_cast<float>(j);
+      pw.insert(pw.end(), {w * x, w * y, w * 0.2f * x * y, w});
+    }
+  Problems problems;
+  const PrimPtr prim = makeBicubicPatchMesh(7, false, bezierBasis(), 7, false, bezierBasis(),
+                                            {floats("Pw", Storage::Vertex, ValueType::HPoint, pw)}, problems);
+  const int open[] = {kEdgeU0 | kEdgeV0, kEdgeU1 | kEdgeV0, kEdgeU0 | kEdgeV1, kEdgeU1 | kEdgeV1};
+  for (uint32_t patch = 0; patch < 4; ++patch) EXPECT_EQ(prim->info(patch).openEdges, open[patch]) << patch;
+  EXPECT_GT(prim->bytes(), pw.size() * sizeof(float));
+}
+
+TEST(PatchMesh, BilinearPatchesHaveStraightEdgesAndBlendTheirVertices) {
+  Problems problems;
+  std::vector<float> heat(12);
+  for (size_t i = 0; i < heat.size(); ++i) heat[i] = static_cast<float>(i * i);
+  const PrimPtr prim = makeBilinearPatchMesh(
+      4, false, 3, false, {positions(randomPoints(4, 3)), floats("heat", Storage::Vertex, ValueType::Float, heat)},
+      problems);
+  for (uint32_t patch = 0; patch < 6; ++patch) {
+    const auto at = [&](float u, float v) { return sampleAt(*prim, patch, u, v).p; };
+    const std::pair<PatchEdge, std::array<vec3, 2>> edges[] = {{kEdgeU0, {at(0, 0), at(0, 1)}},
+                                                               {kEdgeU1, {at(1, 0), at(1, 1)}},
+                                                               {kEdgeV0, {at(0, 0), at(1, 0)}},
+                                                               {kEdgeV1, {at(0, 1), at(1, 1)}}};
+    for (const auto& [edge, ends] : edges) EXPECT_EQ(prim->straightEdge(patch, edge), ends);
+    const size_t corner = patch / 3 * 4 + patch % 3;
+    const float a = heat[corner], b = heat[corner + 1], c = heat[corner + 4], d = heat[corner + 5];
+    EXPECT_NEAR(primvarAt(*prim, patch, 0, 0.25f, 0.5f)[0], (3 * a + b + 3 * c + d) / 8, 1e-4f);
+  }
+}
+
+TEST(PatchMesh, HeightsAndHomogeneousPointsMustBeFiniteAndOneForEachVertex) {
+  Problems problems;
+  const auto error = [&](const char* name, ValueType type, std::vector<float> values) {
+    return errorOf([&] {
+      makeBilinearPatchMesh(2, false, 2, false, {floats(name, Storage::Vertex, type, std::move(values))}, problems);
+    });
+  };
+  EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, 3}), "Pz has 3 values where 4 vertices need 4 floats");
+  EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, NAN, 3}), "Pz of vertex 2 is not a finite number");
+  EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, 3, 4}), "");
+}
+
 TEST(PatchMesh, AMeshThatEndsWhereItBeganIsClosedThere) {
   Problems problems;
   const PrimPtr prism = makeBilinearPatchMesh(
