@@ -1,4 +1,5 @@
 // The volume shader medium against closed forms: what passes a layer, and what it scatters to the eye.
+#include "reyes/density.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -31,6 +32,40 @@ class Medium : public Stage {
 TEST_F(Medium, AbsorbsAsBeerAndLambertSay) {
   const vec3 out = seen(3, {color("scattering", vec3(0)), color("absorption", {0.1f, 0.5f, 2})}, vec3(1));
   expectColor(out, {std::exp(-0.3f), std::exp(-1.5f), std::exp(-6.0f)});
+}
+
+TEST_F(Medium, AbsorbsByTheColumnOfDensityThatARayCrosses) {
+  attributes.interior = std::make_shared<const ShaderCall>(call("medium", even(0, 0.5f)));
+  // The first ray meets a density of 3 between 1 and 2, the other one nothing.
+  const std::vector<DensityAlongRay> ways = {{{{0, 0}, {1, 0}, {2, 3}, {4, 3}}}, {{{0, 0}, {4, 0}}}};
+  ShadeContext context;
+  context.densities = ways;
+  ShadePoints ends = points({vec3(0, 0, 4), vec3(0, 0, 4)});
+  for (int i = 0; i < 2; ++i) ends.set3(kIx, i, {0, 0, 4});
+  ShadedPoints out;
+  out.resize(2);
+  for (int i = 0; i < 2; ++i) out.set(i, vec3(1), vec3(1));
+  EXPECT_FALSE(system().crossVolume(ends, false, context, out));
+  EXPECT_EQ(out.color(0), vec3(1));
+  EXPECT_TRUE(system().crossVolume(ends, true, context, out));
+  expectColor(out.color(0), vec3(std::exp(-1.5f)));
+  expectColor(out.color(1), vec3(1));
+}
+
+TEST_F(Medium, ScattersFromWhereTheDensityIs) {
+  // What is scattered in a thin layer at 3 has been absorbed nowhere before, and the lamp's light falls off from there.
+  light("pointlight", {number("intensity", 10), point("from", {0, 2, 3})});
+  attributes.interior = std::make_shared<const ShaderCall>(call("medium", even(0.01f, 0, {number("steps", 64)})));
+  const std::vector<DensityAlongRay> ways = {{{{0, 0}, {2.99f, 0}, {3.01f, 1}, {4, 1}}}};
+  ShadeContext context;
+  context.densities = ways;
+  ShadePoints ends = points({vec3(0, 0, 4)});
+  ends.set3(kIx, 0, {0, 0, 4});
+  ShadedPoints out;
+  out.resize(1);
+  out.set(0, vec3(0), vec3(1));
+  EXPECT_TRUE(system().crossVolume(ends, true, context, out));
+  expectColor(out.color(0), vec3(10 / 4.0f / 4 * -std::expm1(-0.01f)), 8e-5f);
 }
 
 TEST_F(Medium, CannotBeSeenInAFurnace) {
