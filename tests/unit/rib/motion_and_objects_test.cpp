@@ -285,5 +285,22 @@ TEST_F(Archives, FilesThatCannotBeOpenedFailButTheOthersAreRead) {
   EXPECT_EQ(log_.worst(), Severity::Error);
 }
 
+TEST(Objects, ShareTheShapesOfTheirMasterWhateverItsTagsAre) {
+  const Reading r(
+      inWorld("ObjectBegin 1 SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"interpolateboundary\"] [1 0] [1] []"
+              " \"P\" [0 0 0 1 0 0 1 1 0 0 1 0] ObjectEnd ObjectInstance 1 ObjectInstance 1"));
+  ASSERT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.object(0).shapes, r.object(1).shapes);
+}
+
+TEST(Motion, OfShapesOfWhichALaterOneDiffersKeepsTheFirstAlone) {
+  const std::string triangle = "Polygon \"P\" [0 0 0 1 0 0 1 1 0]\n",
+                    hexagon = "Polygon \"P\" [0 0 0 1 0 0 2 1 0 2 2 0 1 2 0 0 1 0]\n";
+  const Reading r(inWorld("MotionBegin [0 0.5 1]\n" + triangle + triangle + hexagon + "MotionEnd"));
+  EXPECT_EQ(r.codes(), "rib-motion@5 ");
+  EXPECT_EQ(r.object(0).shapes.size(), 1u);
+  EXPECT_EQ(r.object(0).shapeTimes.size(), 1u);
+}
+
 }  // namespace
 }  // namespace tomales

@@ -88,6 +88,22 @@ TEST(Told, ArchivesThatLieElsewhereHoldNothingOrAreTooDeep) {
   EXPECT_TRUE(has(log.entries().at(0).message, "more than 2 archives within archives; ignored"));
 }
 
+TEST(ByteStream, TakesWhatLooksLikeGzipAfterItsBeginningAsItIs) {
+  const std::vector<std::string> parts = {"Color", "\x1f\x8b\x08", "end"};
+  size_t next = 0;
+  const auto stream = rib::ByteStream::fromProgram([&](char* to, size_t) {
+    if (next == parts.size()) return size_t{0};
+    parts[next].copy(to, parts[next].size());
+    return parts[next++].size();
+  });
+  std::string text;
+  while (stream->peek() != rib::ByteStream::kEnd) {
+    text.append(stream->begin(), stream->end());
+    stream->skipTo(stream->end());
+  }
+  EXPECT_EQ(text, parts[0] + parts[1] + parts[2]);
+}
+
 TEST(RibWriter, KeepsReturnsQuotesAndBackslashesInStrings) {
   const std::string text = "a\r\nb\"c\\d";
   std::string written;
