@@ -6,8 +6,8 @@ namespace tomales {
 namespace {
 
 int told = -1;
-void counting(const TmGrid* g) { told = g->call->lobeSamples(g->host, g); }
-const rsl::Shader countingShader(TM_SURFACE, "counting", "", 0, counting, {});
+void countingLobes(const TmGrid* g) { told = g->call->lobeSamples(g->host, g); }
+const rsl::Shader lobeCounterShader(TM_SURFACE, "counting", "", 0, countingLobes, {});
 
 int neighbours = 0, unlike = 0;
 /// Counts the neighbours whose light along a direction is not that of their point.
@@ -31,7 +31,7 @@ const rsl::Shader spreadingShader(TM_SURFACE, "spreading", "", TM_NEIGHBOURS, sp
 class LobeSamples : public Stage {
  protected:
   LobeSamples() {
-    static const TmShader* const shaders[] = {countingShader, spreadingShader};
+    static const TmShader* const shaders[] = {lobeCounterShader, spreadingShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
     surface("counting");
