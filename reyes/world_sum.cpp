@@ -58,21 +58,17 @@ void fields(WorldSum& a, ShaderCall& x) {
 
 }  // namespace
 
-std::vector<std::string> tilesOfPicture(const std::string& name) {
-  std::vector<std::string> out;
-  if (!name.empty()) out.push_back(name);
-  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
-    if (const size_t at = name.find(mark); at != std::string::npos)
-      for (int tile = 1001; tile <= 1100; ++tile)
-        out.push_back(std::string(name).replace(at, mark.size(), std::to_string(tile)));
-  return out;
-}
-
 uint64_t stampsOfPicture(const std::string& name, const std::string& searchPath) {
   uint64_t sum = 0;
-  for (const std::string& file : tilesOfPicture(name))
+  if (name.empty()) return sum;
+  const auto add = [&](const std::string& file) {
     for (const std::string& candidate : candidateFiles(file, searchPath, textureEndings()))
       if (const uint64_t stamp = fileStamp(candidate)) sum = contentSum(sum, uint64_t{stamp});
+  };
+  add(name);
+  for (const std::string_view mark : {"<UDIM>", "_MAPID_"})
+    if (const size_t at = name.find(mark); at != std::string::npos)
+      for (int tile = 1001; tile <= 1100; ++tile) add(std::string(name).replace(at, mark.size(), std::to_string(tile)));
   return sum;
 }
 

@@ -11,8 +11,6 @@ namespace tomales {
 /// objects. Pre: procedurals that photons meet are open. Without `photonsOnly` it sums all objects.
 uint64_t worldSum(const Scene& scene, bool photonsOnly = true);
 
-/// Returns the names of the pictures that a name with "<UDIM>" or "_MAPID_" stands for, after the name itself.
-std::vector<std::string> tilesOfPicture(const std::string& name);
 /// Sums size and time of change of the files that a texture's name may stand for; 0 if there are none.
 uint64_t stampsOfPicture(const std::string& name, const std::string& searchPath);
 

@@ -20,7 +20,6 @@ struct LightQuality;
 struct InputSettings {
   std::vector<std::string> files;  ///< The files of one RIB stream; "-" is standard input.
   std::set<std::string> sources;   ///< The pictures that Make requests in `files` read (reyes/rib.h:makeSources).
-  std::set<std::string> archives;  ///< Other files that requests in `files` have named so far.
   std::vector<std::string> edits;  ///< RIB files of changes to a shot.
   std::optional<std::vector<int>> frames;  ///< Sorted. If not given, all are rendered.
   bool framesApart = false;                ///< Frames that --frames leaves out need not be read.

@@ -4,7 +4,7 @@
 // It is written under another name in the same folder and renamed when it is complete. Of two processes that write the
 // same file, the last one to finish wins as a whole. A target that is a symbolic link stays one, and the file that it
 // points to is replaced, as with `>` in a shell. Other hard links to the old file, and programs that read it, keep the
-// old contents. finish() calls fsync() before the rename, because otherwise the
+// old contents, so a program's input may be its output. finish() calls fsync() before the rename, because otherwise the
 // file could be empty after a power failure. Threads: plain object.
 #pragma once
 #include <cstdio>

@@ -49,8 +49,6 @@ void Reader::procedural(const Request& r) {
   const std::string& kind = r.args[0].strings[0];
   const std::vector<std::string>& data = r.args[1].strings;
   if (!canRead(r, kind, data.empty() ? "" : data[0])) return;
-  if (kind == "DelayedReadArchive")
-    if (const std::string path = findFile(data[0], "archive"); !path.empty()) tellOfFile(r, "archive", data[0], path);
   const auto read = kind == "RunProgram"    ? &Reader::runProgram
                     : kind == "DynamicLoad" ? &Reader::dynamicLoad
                                             : &Reader::delayedArchive;

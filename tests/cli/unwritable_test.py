@@ -93,37 +93,6 @@ t.write("self.rib", GOOD.replace('"good.exr" "file"', '"./self.rib" "openexr"'))
 scene = (t.folder / "self.rib").read_bytes()
 t.expect_run("a picture in the place of the scene", ["self.rib"], 4, "self.rib:1", "would replace the scene")
 t.expect((t.folder / "self.rib").read_bytes() == scene, "leaves the scene")
-# Other files that a frame reads are kept too: archives, also those that are read late, shaders and pictures.
-t.write("ball.rib", "Sphere 1 -1 1 360\n")
-t.write("papered.sl", '#include "paper.h"\nsurface papered(string map = "") { Ci = color texture(map) + color texture("good.tif"); Oi = 1; }\n')
-t.write("paper.h", "#define PAPER 1\n")
-shutil.copy(t.folder / "good.tif", t.folder / "paper.tif")
-READING = '''Display "%s" "%s" "rgba"
-Translate 0 0 5
-WorldBegin
-%s
-Surface "papered" "map" ["paper.tif"]
-%s
-WorldEnd
-'''
-LATE = 'Procedural "DelayedReadArchive" ["ball.rib"] [-1 1 -1 1 -1 1]'
-for what, file, type, geometry, reason in (
-        ("an archive", "ball.rib", "openexr", 'ReadArchive "ball.rib"', "the scene"),
-        ("an archive that is read late", "ball.rib", "openexr", LATE, "the scene"),
-        ("a shader", "papered.sl", "openexr", "Sphere 1 -1 1 360", "a shader of the scene"),
-        ("a header of a shader", "paper.h", "openexr", "Sphere 1 -1 1 360", "a shader of the scene"),
-        ("a picture that the scene names", "paper.tif", "tiff", "Sphere 1 -1 1 360", "a picture that the scene reads"),
-        ("a picture that a shader names", "./good.tif", "tiff", "Sphere 1 -1 1 360", "a picture that the scene reads")):
-    before = (t.folder / file).read_bytes()
-    t.write("reads.rib", READING % (file, type, "", geometry))
-    t.expect_run(f"a picture in the place of {what}", ["reads.rib"], 4, "reads.rib:1", "would replace " + reason)
-    if type == "tiff":
-        t.expect_run("also by name", ["reads.rib", "-o", file], 4, "would replace " + reason)
-    t.expect((t.folder / file).read_bytes() == before, "leaves it")
-# The pass of a shadow map has the lights that read the map.
-shutil.copy(t.folder / "map.z", t.folder / "again.z")
-t.write("reads.rib", READING % ("again.z", "shadow", 'LightSource "shadowspot" 1 "string shadowname" ["again.z"]', "Sphere 1 -1 1 360"))
-t.expect_run("a shadow map that the lights read is made again", ["reads.rib"], 0)
 left = [p.name for p in t.folder.rglob("*.part") if ".dfb" not in p.name and ".icf" not in p.name]
 t.expect(not left, f"nothing is left behind but buckets, which --resume uses: {left}")
 t.write("kept.rib", GOOD)

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
 #include <optional>
 #include <set>
 
@@ -69,10 +68,6 @@ class RenderRun {
     rib.onScene = [this](Scene&& scene) { takeScene(std::move(scene)); };
     if (settings_.input.framesApart && settings_.input.frames)
       rib.skipsFrame = [this](int frame) { return !wants(frame); };
-    rib.onFile = [this](const FileUse& use) {
-      const std::lock_guard lock(archivesMutex_);  // procedurals are read while a frame is rendered
-      if (!use.path.empty()) archives_.insert(use.path);
-    };
     rib.onSkipped = [this](int worlds) { scenes_ += worlds; };
     rib.onMake = [this](const Request& request) {
       const auto& makes = settings_.input.makes;
@@ -148,7 +143,6 @@ class RenderRun {
   /// Returns the settings of a frame, with those of light that hold for the animation.
   RenderSettings held(Scene& scene) {
     RenderSettings out = settings_;
-    out.input.archives = archives_;
     out.quality.reading_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - readingSince_).count();
     if (!settings_.quality.chooses() || writesMapsAlone(scene.options, settings_)) return out;
     const int frame = scene.options.frame;
@@ -219,8 +213,6 @@ class RenderRun {
   Log log_;
   RunReport report_;
   const RenderSettings settings_;
-  std::mutex archivesMutex_;
-  std::set<std::string> archives_;  ///< InputSettings::archives.
   const Job job_;
   const bool seen_;
   const ThreadLimit threads_;

@@ -7,7 +7,6 @@
 #include <functional>
 #include <set>
 
-#include "reyes/app/frame/shader_files.h"
 #include "reyes/base/output_root.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/camera.h"
@@ -126,32 +125,11 @@ void keepLargerFiles(Options& options, const std::set<std::string>& named, const
   }
 }
 
-/// The files that a frame reads.
-struct ReadFiles {
-  std::vector<std::string> scene, shaders, pictures;
-};
-
-ReadFiles readFilesOf(const Scene& scene, ShaderRegistry& shaders, const InputSettings& input) {
-  ReadFiles out{input.files, {}, {}};
-  out.scene.insert(out.scene.end(), input.edits.begin(), input.edits.end());
-  out.scene.insert(out.scene.end(), input.archives.begin(), input.archives.end());
-  const ShaderFiles files = shaderFilesOf(scene, shaders);
-  out.shaders.assign(files.files.begin(), files.files.end());
-  out.pictures = picturesOf(files, scene);
-  return out;
-}
-
-/// A map may be named by the lights of the pass that makes it anew, so it may replace a picture that they read.
-bool replacesNoSource(const DisplayCall& display, const ReadFiles& read, Log& log) {
-  const std::string file = fileOf(display);
-  const char* const what = isAmong(file, read.scene)                             ? "the scene"
-                           : isAmong(file, read.shaders)                         ? "a shader of the scene"
-                           : !writesMap(display) && isAmong(file, read.pictures) ? "a picture that the scene reads"
-                                                                                 : nullptr;
-  if (what)
-    log.report(Severity::Output, "image-write", display.where,
-               "\"" + file + "\" could not be written: it would replace " + what);
-  return !what;
+bool replacesNoSource(const DisplayCall& display, const RenderSettings& settings, Log& log) {
+  if (!isAmong(fileOf(display), settings.input.files)) return true;
+  log.report(Severity::Output, "image-write", display.where,
+             "\"" + fileOf(display) + "\" could not be written: it would replace the scene");
+  return false;
 }
 
 }  // namespace
@@ -193,15 +171,13 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log) {
   return false;
 }
 
-bool displaysAreWritable(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log) {
+bool displaysAreWritable(const Options& options, const RenderSettings& settings, Log& log) {
   const PluginTrust trust = pluginTrust(settings);
-  const Options& options = scene.options;
-  const ReadFiles read = readFilesOf(scene, shaders, settings.input);
   bool all = true;
   for (const DisplayCall& display : options.displays) {
     if (display.type == "null" || !driverOf(display, options, trust).empty()) continue;
     makeFolderOf(display.name);
-    all = hasFolder(display.name, display.where, log) && replacesNoSource(display, read, log) && all;
+    all = hasFolder(display.name, display.where, log) && replacesNoSource(display, settings, log) && all;
   }
   if (!all || displaysCanBegin(options, trust, log)) return all;
   log.report(Severity::Output, "frame-unwritable", {},

@@ -3,7 +3,6 @@
 #include "reyes/app/settings.h"
 #include "reyes/base/plugin_trust.h"
 #include "reyes/scene.h"
-#include "reyes/shader_registry.h"
 
 namespace tomales {
 
@@ -32,7 +31,7 @@ bool hasFolder(const std::string& file, const SourceLoc& where, Log& log);
 /// file is written.
 void makeFolderOf(const std::string& file);
 /// Makes the relative folders of Displays. Returns false, and reports it, if one of them has no folder, cannot be
-/// written, or would replace a file that the frame reads. Display drivers are not asked.
-bool displaysAreWritable(const Scene& scene, ShaderRegistry& shaders, const RenderSettings& settings, Log& log);
+/// written, or would replace the scene itself. Display drivers are not asked.
+bool displaysAreWritable(const Options& options, const RenderSettings& settings, Log& log);
 
 }  // namespace tomales

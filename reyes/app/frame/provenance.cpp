@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 
 #include "reyes/app/build_info.h"
-#include "reyes/app/frame/shader_files.h"
 #include "reyes/base/file_stamp.h"
 #include "reyes/base/search_path.h"
 #include "reyes/camera.h"
 #include "reyes/image.h"
 #include "reyes/pictures.h"
+#include "reyes/rsl_host.h"
 #include "reyes/state_fields.h"
 #include "reyes/world_sum.h"
 
@@ -66,11 +67,37 @@ std::string sceneText(const RenderSettings& settings) {
 /// Sums size and time of change of all files that the scene's shaders are made of, and of those that they
 /// name, by parameters or in their text. Returns nothing if a shader computes the name of a file.
 std::optional<uint64_t> shaderSum(const Scene& scene, ShaderRegistry& shaders) {
-  const ShaderFiles read = shaderFilesOf(scene, shaders);
-  if (!read.isKnown) return std::nullopt;
+  const std::string path = pathOf(scene.options.searchPaths, "shader");
+  std::set<const ShaderCall*> seen;
+  std::vector<ShaderName> names;
+  std::set<std::tuple<std::string, TmKind, std::string>> known;  // ten thousand lights may name one shader
+  std::set<std::string> files, pictures;
+  const auto add = [&](const ShaderCall* call, TmKind kind) {
+    if (!call || !seen.insert(call).second) return;
+    for (const Param& p : call->params) pictures.insert(p.strings.begin(), p.strings.end());
+    std::string beside = call->where.folder().string();
+    if (known.emplace(call->name, kind, beside).second) names.push_back({call->name, kind, std::move(beside)});
+  };
+  for (const auto& light : scene.lights) add(&light->shader, TM_LIGHT);
+  if (scene.options.imager) add(&*scene.options.imager, TM_IMAGER);
+  for (const ShadeGroup& group : scene.groups) {
+    const Attributes& a = *group.attributes;
+    add(a.surface.get(), TM_SURFACE);
+    add(a.displacement.get(), TM_DISPLACEMENT);
+    for (const auto& volume : {a.atmosphere, a.interior, a.exterior}) add(volume.get(), TM_VOLUME);
+  }
+  shaders.prepare(names, path);
+  for (const ShaderName& n : names) {
+    const TmShader* shader = shaders.find(n.name, n.kind, path, n.beside);
+    if (!shader) continue;
+    for (std::string& file : shaders.filesOf(*shader)) files.insert(std::move(file));
+    RslReads reads = rslReads(*shader);
+    if (!reads.isKnown) return std::nullopt;
+    pictures.insert(reads.names.begin(), reads.names.end());
+  }
   uint64_t sum = 0;
-  for (const std::string& file : read.files) sum = contentSum(sum, fileStamp(file));
-  for (const std::string& picture : read.names)
+  for (const std::string& file : files) sum = contentSum(sum, fileStamp(file));
+  for (const std::string& picture : pictures)
     if (const uint64_t stamps = stampsOfPicture(picture, pathOf(scene.options.searchPaths, "texture")))
       sum = contentSum(sum, uint64_t{stamps});
   return sum;

@@ -140,7 +140,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
                  Log& log, const std::function<void()>& afterStage) {
   if (!cropHasPixels(scene, log)) return;
   const DeepFrame layout = layOutFrame(scene);
-  if (!displaysAreWritable(scene, shaders, settings, log) || !fitsMemory(scene, layout, log)) return;
+  if (!displaysAreWritable(scene.options, settings, log) || !fitsMemory(scene, layout, log)) return;
   checkDisplays(scene.options, log);
   FrameJob job(scene, shaders, settings, stats, log);
   const bool given = !settings.stored.irradiance.empty(),

@@ -84,17 +84,11 @@ std::unique_ptr<Checkpoint> ShotJob::keptGather() const {
   return nullptr;
 }
 
-ShaderRegistry& ShotJob::shaders() {
+void ShotJob::prepareLight() {
   KeptGeometry& geometry = files_->kept();
   if (!geometry.shaders) geometry.shaders = frameShaders(settings_, log_);
-  return *geometry.shaders;
-}
-
-void ShotJob::prepareLight() {
-  ShaderRegistry& known = shaders();
-  KeptGeometry& geometry = files_->kept();
   world_ = std::make_unique<RayWorld>(shot_, geometry, settings_, stats_, log_);
-  job_ = std::make_unique<FrameJob>(shot_.scene, known, settings_, stats_, log_);
+  job_ = std::make_unique<FrameJob>(shot_.scene, *geometry.shaders, settings_, stats_, log_);
   kept_ = keptGather();
   job_->useCheckpoint(kept_.get());
   job_->prepareRays([this] { return world_->tools(); });
@@ -165,7 +159,7 @@ std::shared_ptr<const DeepTile> ShotJob::read(size_t index) const {
 }
 
 void ShotJob::shadePicture() {
-  if (!displaysAreWritable(shot_.scene, shaders(), settings_, log_)) return;
+  if (!displaysAreWritable(shot_.scene.options, settings_, log_)) return;
   checkDisplays(shot_.scene.options, log_);
   describeShot(shot_.scene.options, sumOfShot(shot_, files_->irradianceSum(), sourcesOf(settings_.input.edits)),
                settings_);

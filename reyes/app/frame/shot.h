@@ -46,7 +46,6 @@ class ShotJob {
  private:
   ShotJob(std::shared_ptr<ShotFiles> files, const RenderSettings& settings, Stats& stats, Log& log);
   bool edit();
-  ShaderRegistry& shaders();
   void prepareLight();
   void prepareShares();
   /// Returns the records that an interrupted run has gathered, with --resume; null if nothing is kept.
