@@ -55,6 +55,13 @@ enum class Purpose : uint8_t {
 };
 
 /// The purpose of shading a batch, and its settings.
+/// What an audit asks of the highlights of indirect light, where the eye looks.
+enum class LobeAudit {
+  Off,
+  Even,  ///< They reflect a radiance of 1 from everywhere, which shows where there are any.
+  Paths  ///< ShadeContext::auditPaths paths go along each lobe.
+};
+
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int diffuseDepth = 0;  ///< Diffuse bounces between the eye and these points.
@@ -87,8 +94,7 @@ struct ShadeContext {
   /// Number of paths that find indirect light at each point without records or maps, to measure the error of those. 0:
   /// the frame's method finds that light.
   int auditPaths = 0;
-  /// Where the eye looks, as many paths also go along the lobe of each highlight of indirect light.
-  bool auditsLobes = false;
+  LobeAudit lobes = LobeAudit::Off;
   /// Records are changed by an independent draw of their noise (GiServices::redrawRecords). With another seed this
   /// gives an independent picture of the frame, from which its standard error is known.
   bool redrawn = false;

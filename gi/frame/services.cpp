@@ -251,12 +251,17 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
 }
 
 bool GiServices::followsLobes(const ShadeContext& context) const {
-  return impl_->settings.mode == GiMode::Reference || context.auditsLobes;
+  return impl_->settings.mode == GiMode::Reference || context.lobes != LobeAudit::Off;
 }
 
 void GiServices::indirectAlong(const ShadePoints& points, const uint8_t* active, const LobeDirection& way,
                                const IndirectQuery& query, const ShadeContext& context, TmVec3 out) const {
   ShadeServices::indirectAlong(points, active, way, query, context, out);
+  if (context.lobes == LobeAudit::Even) {
+    for (int i = 0; i < points.count(); ++i)
+      if (active[i]) set(out, i, vec3(1.0f));
+    return;
+  }
   const int bounces = context.auditPaths > 0 ? auditBouncesFor(*impl_, query) : bouncesFor(*impl_, query);
   if (context.diffuseDepth < bounces && context.purpose != Purpose::Rehearsal)
     traceAlong(*impl_, points, active, way, query, context, bounces, out);

@@ -247,27 +247,28 @@ void Checker::retarget(Expr& e, const Type& wanted) {
   }
 }
 
-namespace {
-
-/// Tells whether a number is that of a picture, or computed from one by what would do the same to each component of a
-/// colour.
-bool showsPicture(const Expr& e) {
-  if (!e.type.is(Base::Float) || e.text == "!") return false;
+Checker::Source Checker::sourceOf(const Expr& e) {
+  if (!e.type.is(Base::Float) || e.text == "!") return Source::Numbers;
   bool keeps = e.kind == ExprKind::Unary || e.kind == ExprKind::Binary || e.kind == ExprKind::Conditional;
   if (e.kind == ExprKind::Call && e.builtin) {
     const Emit emit = e.builtin->emit;
-    if (emit == Emit::Texture || emit == Emit::Environment || emit == Emit::Shadow || emit == Emit::List) return true;
+    if (emit == Emit::Texture || emit == Emit::Environment || emit == Emit::Shadow || emit == Emit::List)
+      return Source::Picture;
     keeps = info(e.builtin->op).signature[0] == '*';  // mix, clamp, min, max
+    const auto all = builtinsOf(e.text);
+    if (!keeps && std::any_of(all.begin(), all.end(), [](const Builtin* b) { return Type{b->result}.isTriple(); }))
+      return Source::Noise;
   }
-  return keeps && std::any_of(e.args.begin(), e.args.end(), [](const ExprPtr& part) { return showsPicture(*part); });
+  Source out = Source::Numbers;
+  for (size_t k = e.kind == ExprKind::Conditional ? 1 : 0; keeps && k < e.args.size(); ++k)
+    out = std::max(out, sourceOf(*e.args[k]));
+  return out;
 }
-
-}  // namespace
 
 // N * noise(P) moves points along N: as a factor of a triple, noise means a number. The colour of a picture stays a
 // colour.
 void Checker::retargetFactor(Expr& e, const Type& wanted) {
-  if (e.kind == ExprKind::Tuple || e.type.isTriple() || (wanted.is(Base::Color) && showsPicture(e)))
+  if (e.kind == ExprKind::Tuple || e.type.isTriple() || (wanted.is(Base::Color) && sourceOf(e) == Source::Picture))
     retarget(e, wanted);
 }
 

@@ -58,6 +58,10 @@ class Checker {
   /// Marks the variable that an assignment to the expression changes. Reports an expression that is not assignable.
   void assigned(Expr& e, const char* where);
   int distance(const Expr& e, const Type& to) const;  ///< Negative if it does not convert.
+  /// What a number is computed from, by what would do the same to each component of a colour. Noise comes before
+  /// pictures.
+  enum class Source { Numbers, Picture, Noise };
+  Source sourceOf(const Expr& e);
 
   // --- check_calls.cpp
   Type typeOfCall(Expr& e);

@@ -68,18 +68,29 @@ std::optional<RslValue> HostedShader::fixedValue(size_t parameter, const TmValue
   return valueOf(program, LonePoint(params).grid, static_cast<int32_t>(parameter));
 }
 
+/// Returns the code that computes the cone, the same for all points; null if it depends on the point.
+const Program* HostedShader::coneProgram() const {
+  const std::lock_guard lock(mutex_);
+  for (const bool ofAllBranches : {false, true}) {
+    if (cone_) break;
+    Messages told;  // dropped, since the whole code has given the same messages
+    Code code = coneOf(lowered_, ofAllBranches);
+    optimise(code, std::vector<bool>(code.parameters.size(), false), told);
+    if (isFixed(code) || ofAllBranches) cone_ = std::make_unique<Program>(std::move(code));
+  }
+  return isFixed(cone_->code()) ? cone_.get() : nullptr;
+}
+
 // A lamp whose cone depends on the point shines from its front, as nearly all do.
 bool HostedShader::shinesAllRound(const TmValue* params) const {
   if (!lowered_.onGeometry || lowered_.allRound || lowered_.cone < 0) return lowered_.onGeometry && lowered_.allRound;
+  const Program* program = coneProgram();
+  if (!program) return false;
   const size_t count = lowered_.parameters.size();
-  Messages told;  // dropped, since the whole code has given the same messages
-  Code code = coneOf(lowered_);
-  optimise(code, std::vector<bool>(count + 1, false), told);
-  if (!isFixed(code)) return false;
   std::vector<TmValue> values(params, params + count);
   const float none = 0;
   values.emplace_back().c[0] = &none;
-  const RslValue cone = valueOf(Program(std::move(code)), LonePoint(values.data()).grid, static_cast<int32_t>(count));
+  const RslValue cone = valueOf(*program, LonePoint(values.data()).grid, static_cast<int32_t>(count));
   return cone.floats[0] > kRightAngle;
 }
 

@@ -45,6 +45,7 @@ class HostedShader {
   std::vector<bool> varyingOf(const TmValue* params) const;
   const Program& programFor(const TmGrid& grid) const;
   const Program& defaultProgram(size_t parameter, const TmValue* params) const;
+  const Program* coneProgram() const;
   void declareParameters();
   void declareExtent();
   void declareForHost(const char* name, TmRole role, const float* value);
@@ -57,6 +58,7 @@ class HostedShader {
   mutable std::map<std::vector<bool>, std::unique_ptr<const Program>> others_;
   /// The codes of defaults (defaultOf()), by parameter and by the parameters that vary.
   mutable std::map<std::pair<size_t, std::vector<bool>>, std::unique_ptr<const Program>> defaults_;
+  mutable std::unique_ptr<const Program> cone_;  ///< That of coneOf().
   std::vector<TmParamDecl> params_;
   std::vector<std::vector<const char*>> strings_;
   struct Hosted {

@@ -57,7 +57,7 @@ int samplesOf(const BoundLight& light, const Batch& batch) {
   if (!hasExtent(light) && !light.can(TM_LIGHT_SAMPLED)) return light.samples;
   const int own = batch.context.lightSamples > 0 ? batch.context.lightSamples : light.samples;
   const int times = light.can(TM_LIGHT_AREA) ? batch.lights.times() : 1;
-  return shareOfBranch(std::min(own * times, kMostLightSamples), 1, batch.context);
+  return shareOfBranch(std::max(own, std::min(own * times, kMostLightSamples)), 1, batch.context);
 }
 
 LightSample sampleOf(Batch& batch, const BoundLight& light, const TmGrid& g, ShadowRays rays, int question) {

@@ -37,7 +37,7 @@ void drawSample(Batch& batch, const BoundLight& light, TmGrid& g) {
 void Lights::restrictTo(const std::string* group) { group_ = group; }
 
 void Lights::multiplySamples(int64_t times) {
-  if (!evaluated_ && !indirectEvaluated_) times_ = static_cast<int>(std::clamp<int64_t>(times, 1, kMostLightSamples));
+  if (!evaluated_) times_ = static_cast<int>(std::clamp<int64_t>(times, 1, kMostLightSamples));
 }
 
 const LightSets* Lights::setsOf(const Batch& batch) const {

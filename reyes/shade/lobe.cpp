@@ -190,7 +190,8 @@ class Highlight {
 
   int pathCount() const {
     const ShadeContext& context = batch_.context;
-    return context.auditsLobes ? context.auditPaths : std::max(1, shareOfBranch(context.lightSamples, 1, context));
+    return context.lobes != LobeAudit::Off ? context.auditPaths
+                                           : std::max(1, shareOfBranch(context.lightSamples, 1, context));
   }
 
   /// Where paths have branched already, most paths along lobes are ended at random, and the others get a higher weight

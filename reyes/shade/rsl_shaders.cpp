@@ -80,7 +80,8 @@ Files& files() {
   return all;
 }
 
-/// Finds the names behind the words that begin a shader in a file's text. Only the compiler knows them for certain.
+/// Finds the names behind the words that begin a shader in a file's text, but for macros. Only the compiler knows them
+/// for certain.
 std::set<std::string> namesIn(const std::string& path) {
   std::set<std::string> out;
   if (!inputProblem(path).empty()) return out;
@@ -101,7 +102,8 @@ std::set<std::string> namesIn(const std::string& path) {
       while (isSpace(begin)) ++begin;
       size_t end = begin;
       while (isOfName(end)) ++end;
-      if (end > begin) out.insert(text.substr(begin, end - begin));
+      const std::string name = text.substr(begin, end - begin);
+      if (end > begin && text.find("#define " + name) == std::string::npos) out.insert(name);
     }
   return out;
 }
@@ -111,13 +113,23 @@ class Names {
  public:
   bool has(const std::string& path, const std::string& name) {
     const std::lock_guard lock(mutex_);
-    const auto state = stateOf(path);
-    const auto [it, isNew] = files_.try_emplace(path);
-    if (isNew || it->second.first != state) it->second = {state, namesIn(path)};
-    return it->second.second.count(name) > 0;
+    return of(path).contains(name);
+  }
+  /// Tells whether the text of the file names shaders, and this one is not among them.
+  bool hasOthers(const std::string& path, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const std::set<std::string>& found = of(path);
+    return !found.empty() && !found.contains(name);
   }
 
  private:
+  const std::set<std::string>& of(const std::string& path) {
+    const auto state = stateOf(path);
+    const auto [it, isNew] = files_.try_emplace(path);
+    if (isNew || it->second.first != state) it->second = {state, namesIn(path)};
+    return it->second.second;
+  }
+
   std::mutex mutex_;
   std::map<std::string, std::pair<FileState, std::set<std::string>>> files_;
 };
@@ -159,7 +171,7 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     const fs::path file = fs::path(folder) / (name + ".sl");
     if (!fs::is_regular_file(file, none)) continue;
     // Other compilers name what they make after the shader, so a file's name means less than the shader's.
-    if (!names().has(file.string(), shader)) addHolders(all.sourcesIn(file.parent_path().string()), shader, out);
+    if (names().hasOthers(file.string(), shader)) addHolders(all.sourcesIn(file.parent_path().string()), shader, out);
     out.push_back(file.string());
   }
   if (!out.empty()) return out;

@@ -38,10 +38,11 @@ std::vector<std::string> wordsOf(const std::string& name) {
   return out;
 }
 
-/// Tells whether a word is `part`, also where it is written in one with "light" behind it or "shadow" before it, as in
-/// "mydomelight" and "shadowspot".
-bool means(std::string_view word, const std::string& part) {
-  return word == part || word == "shadow" + part || word.ends_with(part + "light") || word.ends_with(part + "lights");
+/// Tells whether a word begins or ends with `part`, apart from "light" at its end: "keyspot", "mydomelight".
+bool means(std::string_view word, std::string_view part) {
+  for (const std::string_view end : {"lights", "light"})
+    if (word.ends_with(end)) word.remove_suffix(end.size());
+  return word.starts_with(part) || word.ends_with(part);
 }
 
 }  // namespace
@@ -71,7 +72,9 @@ const char* standardLightFor(const ShaderCall& call, bool area) {
                 {"point", "pointlight"}};
   const std::vector<std::string> words = wordsOf(call.name);
   for (const auto& [part, light] : kNames)
-    if (std::any_of(words.begin(), words.end(), [&](const std::string& word) { return means(word, part); }))
+    if (std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+          return *light ? means(word, part) : word.find(part) != word.npos;  // a wrong lamp is worse than none
+        }))
       return area && *light ? "arealight" : light;
   if (area) return "arealight";
   const auto gives = [&](const char* parameter) { return findParam(call.params, parameter) != nullptr; };

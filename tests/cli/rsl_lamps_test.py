@@ -113,6 +113,9 @@ for name, points, radiance in (("turned", DOWN, math.pi / 2), ("turned", UP, 0),
     seen = render("seen", lamp(name, '"float __visible" [1]', points=points).replace('Attribute "visibility" "int camera" [0]', 'Surface "constant" Color [0 0 0]'))
     t.expect(abs(seen[4, 4][0] - radiance) < 0.05, f"  the eye sees {name} with {radiance:.2f} ({seen[4, 4][0]:.3f})")
 # What a light says of its sample is that of the point on the lamp.
+# A condition that depends on the lit point decides where the lamp shines, and not how wide its cone is.
+t.write("near.sl", "light near(float reach = 100, angle = PI) { if (distance(Ps, P) < reach) illuminate(P, N, angle) { Cl = 2 / (L . L); } }\n")
+expect("near", render("near", lamp("near", points=UP)), lambda px, py, square: 2 / square, "a cone under a condition reaches behind the lamp")
 t.write("placed.sl", 'light placed(float across = xcomp(transform("world", P))) { illuminate(P) { Cl = 1; } }\n')
 t.write("hears.sl", 'surface hears() { illuminance(P, N, PI / 2) { float x = 7; lightsource("across", x); Ci += x * x * Cl; } Oi = 1; }\n')
 SCENE, matte = SCENE.replace('"matte" "Kd" [1] "Ka" [0]', '"hears"'), SCENE

@@ -18,7 +18,6 @@ constexpr float kAuditFloor = 0.01f;  ///< Added to the divisor of relative erro
 constexpr int kFewestPaths = 32, kMostPaths = 2048;
 constexpr double kNoiseOfError = 0.4;
 constexpr int kMostGrowth = 4;  ///< No more than so many times the paths are added at once: a few tell little.
-constexpr int kPathsThatTellGloss = 4;
 constexpr int kTimesLightSamples = 8;
 constexpr size_t kPixelsPerBlock = 6;
 constexpr float kMeanOfNormal = 0.7979f;  ///< Mean absolute value of draws from the normal distribution.
@@ -107,12 +106,12 @@ int Audit::findIndirect(ShadeContext context) {
   return indirect_.rays;
 }
 
-/// Finds the pixels whose colour changes where paths follow lobes.
+/// Finds the pixels whose colour changes if highlights of indirect light reflect an even light.
 void Audit::findGlossy(ShadeContext context) {
-  context.auditPaths = kPathsThatTellGloss;
+  context.auditPaths = 1;
   context.seed = hashCombine(settings_.seed, randomStream("glos"));
   const std::vector<vec3> without = colors(context);
-  context.auditsLobes = true;
+  context.lobes = LobeAudit::Even;
   const std::vector<vec3> with = colors(context);
   for (size_t p = 0; p < pixels_.size(); ++p) {
     if (with[p] == without[p]) continue;
@@ -124,7 +123,7 @@ void Audit::findGlossy(ShadeContext context) {
 
 /// Returns how the colour of each pixel changes where the same paths also follow lobes.
 std::vector<vec3> Audit::highlightsBeside(const std::vector<vec3>& without, ShadeContext context) const {
-  context.auditsLobes = true;
+  context.lobes = LobeAudit::Paths;
   const std::vector<SampledColor> with = shadeAuditPixels(glossyPixels_, samplesPerPixel_, scene_, shading_, context);
   std::vector<vec3> out(pixels_.size(), vec3(0.0f));
   for (size_t i = 0; i < glossy_.size(); ++i) out[glossy_[i]] = with[i].mean - without[glossy_[i]];
@@ -160,7 +159,7 @@ void Audit::addSets(FoundLight& light, ShadeContext context, int rays) {
   if (hasHighlights) highlights_.rays = light.rays;
 }
 
-/// Returns the errors that these kinds of light make together, at the pixels that are lit.
+/// Returns the errors that these kinds of light make together, at the pixels that are lit or seem to be.
 std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight*> kinds) const {
   std::vector<AuditedError> out;
   for (size_t p = 0; p < pixels_.size(); ++p) {
@@ -172,7 +171,7 @@ std::vector<AuditedError> Audit::errorsOf(std::initializer_list<const FoundLight
         off += light->missing(p);
         noise += light->noise(p);
       }
-    if (right == vec3(0.0f)) continue;
+    if (right == vec3(0.0f) && picture_[p].mean == vec3(0.0f)) continue;
     AuditedError& e = out.emplace_back();
     for (int c = 0; c < 3; ++c) {
       const float unit = 3 * (std::abs(right[c]) + kAuditFloor);

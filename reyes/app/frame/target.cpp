@@ -24,7 +24,7 @@ constexpr double kFinestTarget = 0.01;
 constexpr int kFewestInTrials = 2;
 /// At least this share of the target is left for other errors than that of highlights, because less would cost more
 /// than it brings.
-constexpr double kLeastLeft = 0.5;
+constexpr double kLeastLeft = 0.7;
 constexpr double kMuchOfTarget = 0.5;  ///< Highlights that err by this share of the target are named if it is missed.
 constexpr double kTolerance = 1.1;     ///< A picture is lit again if its error is this many times the target.
 
@@ -97,7 +97,7 @@ class TargetSearch {
   /// Returns the error to aim at beside that of highlights, which no settings change.
   double aimedError() const {
     const double all = kMargin * target_.error, left = all * all - highlights_ * highlights_;
-    return left > 0 ? std::max(std::sqrt(left), kLeastLeft * all) : all;
+    return std::max(std::sqrt(std::max(left, 0.0)), kLeastLeft * all);
   }
 
   LightQuality cheapest(const ErrorModel& model, const std::optional<LightQuality>& gathered = {}) const {

@@ -47,6 +47,20 @@ void dropResults(Block& body, const Code& code) {
   });
 }
 
+/// Puts what the branches of conditions do in the place of these conditions.
+void takeAllBranches(Block& body) {
+  Block out;
+  for (Instruction& i : body) {
+    for (Block& inner : i.blocks) takeAllBranches(inner);
+    if (i.op != Op::If) {
+      out.push_back(std::move(i));
+      continue;
+    }
+    for (Block& inner : i.blocks) std::ranges::move(inner, std::back_inserter(out));
+  }
+  body = std::move(out);
+}
+
 }  // namespace
 
 Code defaultOf(const Code& lowered, size_t parameter) {
@@ -62,7 +76,7 @@ Code defaultOf(const Code& lowered, size_t parameter) {
   return out;
 }
 
-Code coneOf(const Code& lowered) {
+Code coneOf(const Code& lowered, bool ofAllBranches) {
   Code out = lowered;
   for (Parameter& p : out.parameters) p.output = false;  // nobody takes them
   Register& cone = out.registers[static_cast<size_t>(out.cone)];
@@ -72,6 +86,7 @@ Code coneOf(const Code& lowered) {
   value.type = {Base::Float};
   value.told = true;
   dropResults(out.body, out);
+  if (ofAllBranches) takeAllBranches(out.body);
   keepFor(out.body, {out.cone});
   return out;
 }

@@ -16,9 +16,9 @@ void leavePoints(Code& lowered);
 /// Returns the part of a shader that computes the value of one parameter, from its default or the given value.
 Code defaultOf(const Code& lowered, size_t parameter);
 
-/// Returns the part of a light that computes Code::cone, as the value of one more parameter, which is given as 0. Pre:
-/// there is such a register.
-Code coneOf(const Code& lowered);
+/// Returns the part of a light that computes Code::cone, as the value of one more parameter, which is given as 0. With
+/// `ofAllBranches`, both sides of each condition count. Pre: there is such a register.
+Code coneOf(const Code& lowered, bool ofAllBranches);
 
 /// Finds for each register whether it varies over the batch, and for each instruction whether all points are active
 /// there. `varying[k]` is true if a primitive variable gives parameter k.

@@ -156,6 +156,16 @@ Cases conversionCases() {
        [](float i) {
          return rsl::noise(i) * Vec3{1, 2, 3};
        }},
+      {"noise beside a texture in a color's product is a number",
+       "c = color (1, 2, 3) * max(noise(P), texture(\"a\", s, t));",
+       [](float i) {
+         return std::max(rsl::noise(at(i)), i) * Vec3{1, 2, 3};
+       }},
+      {"noise that a texture chooses in a color's product is a number",
+       "c = color (1, 2, 3) * (texture(\"a\", s, t) > 2 ? noise(P) : 1);",
+       [](float i) {
+         return (i > 2 ? rsl::noise(at(i)) : 1.0f) * Vec3{1, 2, 3};
+       }},
       {"a texture cast to a number in a color's product", "c = color (1, 2, 3) * float texture(\"a\", s, t);",
        [](float i) {
          return Vec3{i, 2 * i, 3 * i};

@@ -147,7 +147,7 @@ TEST_F(Binding, AnAreaLightStandsInForAMissingLightWithGeometryUnlessItBringsInd
   }
 }
 
-TEST_F(Binding, WholeWordsOfAMissingLightsNameSayWhichStandardLightItIs) {
+TEST_F(Binding, BeginningsAndEndsOfTheWordsOfAMissingLightsNameSayWhichStandardLightItIs) {
   ShaderCall call;
   for (const auto& [name, instead] : {std::pair("spot", "spotlight"),
                                       {"keySpot2", "spotlight"},
@@ -159,10 +159,15 @@ TEST_F(Binding, WholeWordsOfAMissingLightsNameSayWhichStandardLightItIs) {
                                       {"sun1", "distantlight"},
                                       {"environment", "ambientlight"},
                                       {"env2light", "ambientlight"},
-                                      {"spotty", "ambientlight"},
-                                      {"viewpoint", "ambientlight"},
-                                      {"Sunday", "ambientlight"},
-                                      {"baker", "ambientlight"}}) {
+                                      {"superspot", "spotlight"},
+                                      {"pointnofalloff", "pointlight"},
+                                      {"lightspot", "spotlight"},
+                                      {"sunshine", "distantlight"},
+                                      {"respotted", "ambientlight"},
+                                      {"appointments", "ambientlight"},
+                                      {"photonmap", ""},
+                                      {"mycausticsmap", ""},
+                                      {"indirectdiffuse", ""}}) {
     call.name = name;
     EXPECT_STREQ(standardLightFor(call, false), instead) << name;
   }

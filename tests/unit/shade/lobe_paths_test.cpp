@@ -82,7 +82,7 @@ TEST_F(LobePaths, AreAsManyAsTheOtherPathsOfAnAudit) {
   light("indirectlight");
   ShadeContext audit;
   audit.auditPaths = 32;
-  audit.auditsLobes = true;
+  audit.lobes = LobeAudit::Paths;
   EXPECT_NEAR(mean(200, audit).x, reflectance(), 0.02f * reflectance());
   EXPECT_LE(paths.paths, 200 * 32);
   EXPECT_GT(paths.paths, 190 * 32);

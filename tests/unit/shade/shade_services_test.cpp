@@ -42,7 +42,7 @@ TEST(ShadeServices, AreDarkAtActivePointsAndLeaveOthersAlone) {
   EXPECT_EQ(x[0], 7);
   ShadedPoints shaded;
   EXPECT_FALSE(bare.volumesBefore(points, {}, shaded));
-  EXPECT_FALSE(bare.followsLobes());
+  EXPECT_FALSE(bare.followsLobes({}));
   EXPECT_TRUE(bare.tracesFrom(points, {}, {}));
   EXPECT_TRUE(bare.emitterBound(0).empty());
   EXPECT_FALSE(bare.sampleWholeEmitter(0, 3, {}, x, y, {}));
