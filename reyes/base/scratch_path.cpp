@@ -76,12 +76,14 @@ ScratchPath::ScratchPath(const fs::path& folder, const std::string& stem, Kind k
   const fs::path place = folder.empty() ? "." : folder;
   const std::string prefix = prefixOf(stem);
   removeStale(place, prefix);
-  do path_ = (folder / (prefix + randomDigits())).concat(kSuffix);
-  while (!create(kind));
-  removal_.emplace([path = path_] {
-    std::error_code none;
-    fs::remove_all(path, none);
-  });
+  do {
+    path_ = (folder / (prefix + randomDigits())).concat(kSuffix);
+    // It is known before the file exists, so that a signal at any time leaves none.
+    removal_.emplace([path = path_] {
+      std::error_code none;
+      fs::remove_all(path, none);
+    });
+  } while (!create(kind));
 }
 
 /// Returns false if the name is taken, or if another process took this for stale before it was locked.
