@@ -78,6 +78,26 @@ TEST_F(AreaLight, HasSoManyTimesItsSamplesAsTheFirstLoopOfASurfaceAsks) {
   EXPECT_NEAR(counted.y, sum, 0.1f * sum);
 }
 
+// The point mirrors nothing of the lamp, so only the lamp's own samples send rays.
+TEST_F(AreaLight, HasFourTimesItsSamplesWhereTheEyeSeesNothingButMetal) {
+  light("arealight", {number("samples", 4)}, true);
+  rectangle({0, 0, 1});
+  const auto raysOn = [&](float metallic, const ShadeContext& context = {}) {
+    shading.reset();
+    scene.objects.clear();
+    surface("disney", {number("metallic", metallic), number("roughness", 0.1f)});
+    services.shadowRays = 0;
+    shade(points({vec3(3, 0, 5)}), context);
+    return services.shadowRays;
+  };
+  EXPECT_EQ(raysOn(1), 16);
+  EXPECT_EQ(raysOn(0.5f), 4);
+  ShadeContext mirrored;
+  mirrored.kind = RayKind::Specular;
+  mirrored.specularDepth = 1;
+  EXPECT_EQ(raysOn(1, mirrored), 4);
+}
+
 TEST_F(AreaLight, StopsTracingShadowsWhereTheirMeanIsKnownWellEnough) {
   surface("matte");
   light("arealight", {number("samples", 64), number("shadowvariance", 0.002f)}, true);
