@@ -143,6 +143,16 @@ TEST(BadInput, DeepNestingEndsWhereItBegan) {
   EXPECT_GE(r.log.count("rib-nesting"), 1);
 }
 
+TEST(BadInput, BlocksThatWereTooDeepInOneWorldDoNotCountInTheNext) {
+  std::string deep = "WorldBegin ";
+  for (int i = 0; i < 10010; ++i) deep += "AttributeBegin ";
+  const Reading r(deep + "WorldEnd\nWorldBegin AttributeEnd " + kSphere + "WorldEnd\n");
+  EXPECT_GE(r.log.count("rib-nesting"), 1);
+  bool told = false;
+  for (const LogEntry& e : r.log.entries()) told |= e.message.starts_with("AttributeEnd without");
+  EXPECT_TRUE(told);
+}
+
 TEST(BadInput, UnsupportedRequestsAreNamedOnce) {
   const Reading r(
       inWorld("VPAtmosphere \"fog\"\nVPAtmosphere \"fog\"\nVPSurface \"matte\"\nVPSurface \"matte\"\nVolume \"cloud\" "
