@@ -73,6 +73,14 @@ TEST(BrightSpots, WhatIsNotFlatIsTheSphereAroundItsHits) {
   EXPECT_NE(spotsOf({deep}).spots().at(0).normal, vec3(0));
 }
 
+TEST(BrightSpots, TheMeanLightOfAllRecordsIsKnown) {
+  BrightSpots spots;
+  EXPECT_EQ(spots.irradiance(), 0);
+  spots.learn({{1, {}}, {2, {}}});
+  spots.learn({{6, {}}});
+  EXPECT_FLOAT_EQ(spots.irradiance(), 3);
+}
+
 TEST(BrightSpots, NeedFourHitsAndSplitFromSixteenOn) {
   const auto count = [](int hits) {
     BrightFind find = rectangle({0, 0, 5}, {1, 0, 0}, {0, 1, 0}, std::max(0, hits - 4));
