@@ -54,7 +54,6 @@ enum class Purpose : uint8_t {
   Rehearsal,  ///< Shaders run only to learn what they ask: no ray is traced.
 };
 
-/// The purpose of shading a batch, and its settings.
 /// What an audit asks of the highlights of indirect light, where the eye looks.
 enum class LobeAudit {
   Off,
@@ -62,6 +61,7 @@ enum class LobeAudit {
   Paths  ///< ShadeContext::auditPaths paths go along each lobe.
 };
 
+/// The purpose of shading a batch, and its settings.
 struct ShadeContext {
   RayKind kind = RayKind::Camera;
   int diffuseDepth = 0;  ///< Diffuse bounces between the eye and these points.

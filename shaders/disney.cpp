@@ -96,9 +96,11 @@ class Glossy {
         cl_(g_) {
     lobes_.reserve(static_cast<size_t>(g_->count));
     number_.reserve(static_cast<size_t>(g_->count));
+    mirrored_.reserve(static_cast<size_t>(g_->count));
     for (int i = 0; i < g_->count; ++i) {
       lobes_.emplace_back(N[i], V[i], Material(inputs(g_, i)));
       number_.push_back(directionsOf(lobes_.back()));
+      mirrored_.push_back(std::min(number_.back(), mostMirrored()));
     }
   }
   const Lobes& operator[](int i) const { return lobes_[static_cast<size_t>(i)]; }
@@ -119,15 +121,15 @@ class Glossy {
   /// Adds what arrives along directions of the lobes: light, and the scene where it is mirrored. Both come along the
   /// same directions, so that where few directions happen to find the sky, more find what hides it.
   void addLobeSamples(rsl::Vec3Array& ofLights, rsl::Vec3Array& ofScene) {
-    Reflections seen(b_, number_, drawn_, least_);
+    Reflections seen(b_, mirrored_, mostMirrored(), least_);
     const int most = number_.empty() ? 0 : *std::max_element(number_.begin(), number_.end());
     for (int k = 0; k < most; ++k) {
       draw(k);
       if (counted_ > 0) addLights(k, ofLights);
       if (!mirrors_) continue;
       for (int i : b_)
-        if (pdf_[i] > 0) {
-          const float weight = 1 / (rsl::kPi * pdf_[i] * static_cast<float>(numberOf(i)));
+        if (const int mirrored = mirrored_[static_cast<size_t>(i)]; k < mirrored && pdf_[i] > 0) {
+          const float weight = 1 / (rsl::kPi * pdf_[i] * static_cast<float>(mirrored));
           seen.add(i, L_[i], weight * (*this)[i].value(L_[i]), xi0_[i], xi1_[i]);
         }
       if ((k + 1) % Reflections::kTogether == 0 || k + 1 == most) seen.trace(ofScene);
@@ -158,6 +160,9 @@ class Glossy {
   /// Returns the greatest number of directions. In repeated reflections there are only as many as lights want, because
   /// rays would multiply.
   int directions() const { return std::max(least_, b_.rayDepth() > 0 ? counted_ : kMostTimes * counted_); }
+  /// Returns the greatest number of directions along which the scene is mirrored. What they meet costs far more than
+  /// light does, so it is not followed along all of them.
+  int mostMirrored() const { return std::min(drawn_, std::max(least_, 2 * counted_)); }
   /// Returns the number of directions of one point. The noise of the lobes grows with their share in what is seen, and
   /// the number of directions with its square. A mirrored scene has more detail than lights have.
   int directionsOf(const Lobes& lobes) const {
@@ -175,7 +180,8 @@ class Glossy {
   const bool mirrors_;
   const int least_, drawn_;
   std::vector<Lobes> lobes_;
-  std::vector<int> number_;  ///< How many of the drawn_ directions each point has.
+  std::vector<int> number_;    ///< How many of the drawn_ directions each point has.
+  std::vector<int> mirrored_;  ///< How many of these, the first ones, mirror the scene.
   rsl::Vec3Array L_;
   rsl::Array xi0_, xi1_, pdf_, claimed_;
   rsl::Vec3Array cl_;

@@ -58,10 +58,9 @@ int32_t bake3d(void* host, const TmGrid* all, const char* file, const TmCloudOpt
                TmConstVec3 N, const TmChannel* values, int32_t valueCount) {
   Batch& batch = batchOf(host);
   const Primary primary(batch, all);
-  if (!batch.points || batch.context.kind != RayKind::Camera || batch.context.purpose != Purpose::Picture ||
+  if (!*file || !batch.points || batch.context.kind != RayKind::Camera || batch.context.purpose != Purpose::Picture ||
       batch.lights.restricted())
     return 1;
-  if (!*file) return 1;
   if (!batch.scene.clouds) return refuse(batch, file, "nothing is baked here");
   CloudQuery query;
   if (!toFile(batch, primary.grid(), file, P, N, givenOptions(batch, tmCloudDefaults(), given), query)) return 0;

@@ -102,9 +102,16 @@ std::set<std::string> namesIn(const std::string& path) {
       while (isSpace(begin)) ++begin;
       size_t end = begin;
       while (isOfName(end)) ++end;
-      const std::string name = text.substr(begin, end - begin);
-      if (end > begin && text.find("#define " + name) == std::string::npos) out.insert(name);
+      if (end > begin) out.insert(text.substr(begin, end - begin));
     }
+  constexpr std::string_view kDefine = "#define";
+  for (size_t at = text.find(kDefine); at != std::string::npos; at = text.find(kDefine, at + 1)) {
+    size_t begin = at + kDefine.size();
+    while (isSpace(begin)) ++begin;
+    size_t end = begin;
+    while (isOfName(end)) ++end;
+    out.erase(text.substr(begin, end - begin));
+  }
   return out;
 }
 

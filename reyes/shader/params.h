@@ -54,6 +54,7 @@ class FloatParam : public Param {
  public:
   FloatParam(const char* name, float value, const char* doc, TmRole role = TM_ROLE_NONE)
       : Param(name, TM_FLOAT, {value}, {}, doc, role) {}
+  /// Tells whether all points of the batch have one value, as all other batches of the object then have.
   bool isUniform(const TmGrid* g) const { return value(g).step == 0; }
   float operator()(const TmGrid* g, int i) const {
     const TmValue& v = value(g);

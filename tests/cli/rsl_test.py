@@ -325,6 +325,18 @@ light beam(point from = (0, 0, 0); point to = (0, 0, 1)) { illuminate (from, to 
 scene("kinds", 'LightSource "lamp" 1 "color shade" [0 1 0] Atmosphere "halved" Surface "matte"', 'Imager "swapped"')
 render("a light, a volume and an imager of one file", "kinds")
 expect_all("kinds", (0, 0, 0.5), "do what they say")
+# A file whose shader's name comes from a macro or from another file is found by the file's name.
+for name, text in (("named", "#define NAME named\n" + plain("NAME", "color(0, 1, 0)")), ("whole", '#include "whole.h"\n')):
+    t.write(f"swapped/{name}.sl", text)
+    t.write(f"swapped/{name}_old.sl", plain(name, "color(1, 0, 0)"))
+    t.write("swapped/whole.h", plain("whole", "color(0, 1, 0)"))
+    scene(name, f'Surface "{name}"', 'Option "searchpath" "shader" ["swapped"]')
+    render(f"the shader \"{name}\" beside an old copy", name)
+    expect_all(name, GREEN, "is that of the file")
+t.write("swapped/woods.sl", "#define oakgrain 2\n" + plain("oak", "color(0, oakgrain / 2, 0)"))
+scene("oak", 'Surface "oak"', 'Option "searchpath" "shader" ["swapped"]')
+render("a shader in a file with a macro whose name begins alike", "oak")
+expect_all("oak", GREEN, "is found")
 # Primitive variables have derivatives, also where nothing else asks for any. Over the square, u goes from 0 to 1.
 t.write("slopes.sl", "surface slopes(varying float w = 0; varying point q = 0;) { Oi = 1; Ci = color(Du(w), -Dv(w), length(Du(q))); }\n"
         "volume haze(varying float w = 0; varying point q = 0;) { Oi = 1; Ci = color(Du(w), -Dv(w), length(Du(q))); }\n")

@@ -86,11 +86,11 @@ void checkPlan(BatchPlan& plan) {
                  fmt::format("\"{}\" is no name of a task: such a name has letters, digits, - _ and . only", t.name));
     if (!names.insert(t.name).second) refusePlan(plan, fmt::format("two tasks are called \"{}\"", t.name));
     if (t.arguments.empty()) refusePlan(plan, fmt::format("task \"{}\" has no arguments", t.name));
-    for (const std::string& file : t.makes)
-      if (const auto [at, isNew] =
-              makers.emplace((fs::path(plan.workingFolder) / file).lexically_normal().string(), t.name);
-          !isNew)
+    for (const std::string& file : t.makes) {
+      const fs::path place = (fs::path(plan.workingFolder) / file).lexically_normal();
+      if (const auto [at, isNew] = makers.emplace(place.string(), t.name); !isNew)
         refusePlan(plan, fmt::format("\"{}\" and \"{}\" both make \"{}\"", at->second, t.name, file));
+    }
   }
   for (const BatchTask& t : plan.tasks)
     for (const std::string& n : t.needs)

@@ -1,4 +1,5 @@
 // Rays of shaders in RSL's manner (reyes/shader/sl_light.h): what they are asked, what they tell, how wide they are.
+#include "tests/unit/shade/bare_services.h"
 #include "tests/unit/shade/obedient.h"
 #include "tests/unit/shade/written_picture.h"
 #include "tests/unit/temporary.h"
@@ -199,7 +200,7 @@ TEST_F(BatchRays, DiffuseRaysAreThatWhetherTheyWantHighlightsOrNot) {
 }
 
 /// Notes the widths of rays and answers nothing.
-class Widths : public ShadeServices {
+class Widths : public test::BareServices {
  public:
   mutable std::vector<vec2> noted;
   void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery& query, const ShadeContext&,
@@ -207,16 +208,6 @@ class Widths : public ShadeServices {
     noted.emplace_back(query.radius[0], query.spread[0]);
     result.distance[0] = kInfinity;
   }
-  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&,
-                    TmVec3) const override {}
-  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override {
-    return false;
-  }
-  void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
-  float emitterReach(int) const override { return 0; }
-  float emitterArea(int) const override { return 1; }
-  void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&,
-                       IndirectResult) const override {}
 };
 
 // Differentials: rays start as wide as the micropolygon and widen with it and with the cone.

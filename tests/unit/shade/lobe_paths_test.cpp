@@ -1,11 +1,12 @@
 // Indirect light that comes by paths along the lobes of specular().
+#include "tests/unit/shade/bare_services.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
 namespace {
 
 /// Lets paths along lobes bring a radiance of 1 from everywhere.
-class EvenPaths : public ShadeServices {
+class EvenPaths : public test::BareServices {
  public:
   mutable int paths = 0;
   bool followsLobes(const ShadeContext&) const override { return true; }
@@ -24,16 +25,6 @@ class EvenPaths : public ShadeServices {
     for (int i = 0; i < points.count(); ++i)
       if (active[i]) set(out.E, i, vec3(0.0f));
   }
-  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&,
-                    TmVec3) const override {}
-  void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery&, const ShadeContext&,
-             const RayResult&) const override {}
-  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override {
-    return false;
-  }
-  void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
-  float emitterReach(int) const override { return 0; }
-  float emitterArea(int) const override { return 1; }
 };
 
 class LobePaths : public Stage {

@@ -1,29 +1,13 @@
 // What the interface to rays answers where an implementation knows nothing.
 #include <gtest/gtest.h>
 
-#include "reyes/shade_services.h"
+#include "tests/unit/shade/bare_services.h"
 
 namespace tomales {
 namespace {
 
-class Bare final : public ShadeServices {
- public:
-  void transmission(const ShadePoints&, const uint8_t*, TmConstVec3, const ShadowRays&, const ShadeContext&,
-                    TmVec3) const override {}
-  void trace(const ShadePoints&, const uint8_t*, TmConstVec3, TmConstVec3, const RayQuery&, const ShadeContext&,
-             const RayResult&) const override {}
-  bool sampleEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const override {
-    return false;
-  }
-  void meetEmitter(int, int, TmConstVec3, TmConstVec3, const EmitterPoints&) const override {}
-  float emitterReach(int) const override { return 0; }
-  float emitterArea(int) const override { return 0; }
-  void indirectDiffuse(const ShadePoints&, const uint8_t*, TmConstVec3, const IndirectQuery&, const ShadeContext&,
-                       IndirectResult) const override {}
-};
-
 TEST(ShadeServices, AreDarkAtActivePointsAndLeaveOthersAlone) {
-  const Bare bare;
+  const test::BareServices bare;
   ShadePoints points(0, 0);
   for (uint32_t i = 0; i < 3; ++i) points.add(i);
   const uint8_t active[] = {1, 0, 1};
