@@ -16,13 +16,15 @@ TOMALES_HOT void compare(const Columns& of, size_t count, const vec3& p, const v
   const float *size = of.size, *limit = of.limit, *steepness = of.steepness, *unseen = of.unseen;
   const float px = p.x, py = p.y, pz = p.z, qx = n.x, qy = n.y, qz = n.z;
   const Range r = range;
+  // A choice by a flag within the loop would keep GCC from vectorising it, so a limit of floats makes this choice.
+  const float leastFront = r.fadesBehind ? 0.0f : 1.0f;
   for (size_t i = 0; i < count; ++i) {
     const float dx = px - x[i], dy = py - y[i], dz = pz - z[i];
     const float distance2 = dx * dx + dy * dy + dz * dz, cosine = qx * nx[i] + qy * ny[i] + qz * nz[i];
     const float covers = r.radiusOf(size[i]);
     const float radius = std::min(covers * reachFactor(steepness[i], covers, r.wider), limit[i]);
     const float height = 0.5f * (dx * (qx + nx[i]) + dy * (qy + ny[i]) + dz * (qz + nz[i]));
-    const float front = r.fadesBehind ? 1 - behindness(height, radius, r.pixel, unseen[i]) : 1.0f;
+    const float front = std::max(leastFront, 1 - behindness(height, radius, r.pixel, unseen[i]));
     const bool serves = (distance2 < radius * radius) & (cosine > r.leastCosine);
     position[i] = std::sqrt(distance2) / radius;
     angle[i] = std::sqrt(std::max(0.0f, 1 - cosine));
