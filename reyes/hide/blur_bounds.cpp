@@ -40,15 +40,18 @@ TOMALES_HOT void extendCells(const float* v, int row, int count, float* __restri
   }
 }
 
-/// Returns the minimum. Each lane of a vector keeps its own, so that the loop vectorises.
+/// Returns the minimum. Each lane of a vector keeps its own, so that the loop vectorises. GCC takes a loop over few
+/// lanes apart before that, so there are many.
 TOMALES_HOT float leastOf(const float* v, int count) {
-  float lanes[kLanes];
-  for (float& l : lanes) l = kInfinity;
+  constexpr int kMany = 2 * kLanes;
+  float lanes[kMany], out = kInfinity;
+  std::fill_n(lanes, kMany, kInfinity);
   int i = 0;
-  for (; i + kLanes <= count; i += kLanes)
-    for (int k = 0; k < kLanes; ++k) lanes[k] = least(lanes[k], v[i + k]);
-  for (; i < count; ++i) lanes[0] = least(lanes[0], v[i]);
-  return *std::min_element(lanes, lanes + kLanes);
+  for (; i + kMany <= count; i += kMany)
+    for (int k = 0; k < kMany; ++k) lanes[k] = v[i + k] < lanes[k] ? v[i + k] : lanes[k];
+  for (const float lane : lanes) out = least(out, lane);
+  for (; i < count; ++i) out = least(out, v[i]);
+  return out;
 }
 
 /// Joins two boxes of two rows each; at odd ends a box is used twice.

@@ -20,19 +20,23 @@ struct Vertices {
 /// no harm.
 TOMALES_HOT bool toRaster(const Vertices& from, const Camera& camera, float* __restrict x, float* __restrict y,
                           float* __restrict d) {
-  const vec3 harmless(0, 0, camera.nearClip());
-  int unseeable = 0;
-  for (int v = 0; v < from.count; ++v) {
-    const vec3 given = from.at(v);
-    const bool good = camera.seeable(given);
-    unseeable |= !good;
-    const vec3 p(good ? given.x : harmless.x, good ? given.y : harmless.y, good ? given.z : harmless.z);
-    const vec2 at = camera.raster(p);
-    x[v] = at.x;
-    y[v] = at.y;
-    d[v] = camera.depthKey(p.z);
-  }
-  return unseeable == 0;
+  const auto project = [&] {
+    const float harmless = camera.nearClip();
+    int unseeable = 0;
+    for (int v = 0; v < from.count; ++v) {
+      const vec3 given = from.at(v);
+      const bool good = camera.seeable(given);
+      unseeable |= good ? 0 : 1;
+      const vec3 p(good ? given.x : 0, good ? given.y : 0, good ? given.z : harmless);
+      const vec2 at = camera.raster(p);
+      x[v] = at.x;
+      y[v] = at.y;
+      d[v] = camera.depthKey(p.z);
+    }
+    return unseeable == 0;
+  };
+  // The compiler vectorises each of the two loops, and not one loop with the choice within it.
+  return camera.perspective() ? project() : project();
 }
 
 TOMALES_HOT bool allBetween(const Vertices& from, float near, float far) {

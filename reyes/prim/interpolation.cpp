@@ -26,7 +26,8 @@ TOMALES_HOT void bilinearSurface(const float* corner, int n, const float* u, con
 }
 
 TOMALES_HOT void crossProducts(int n, const float* ax, const float* ay, const float* az, const float* bx,
-                               const float* by, const float* bz, float* x, float* y, float* z) {
+                               const float* by, const float* bz, float* __restrict x, float* __restrict y,
+                               float* __restrict z) {
   for (int i = 0; i < n; ++i) {
     x[i] = ay[i] * bz[i] - az[i] * by[i];
     y[i] = az[i] * bx[i] - ax[i] * bz[i];
