@@ -53,15 +53,15 @@ struct IrradianceCache::Impl {
   }
   float reach(float recordSize, float pixelSize) const { return rangeAt(pixelSize, 1).radiusOf(recordSize); }
 
-  void insert(uint32_t index) {
-    const IrradianceRecord& r = records[index];
-    tree.insert(index, r.position, unclampedRadius(r), reach(unclampedRadius(r), r.pixelSize));
+  void insertLast() {
+    const IrradianceRecord& r = records.back();
+    tree.insert(r.position, unclampedRadius(r), reach(unclampedRadius(r), r.pixelSize), r.limit);
   }
 
   // The new record knows E at its place, to which older records are extrapolated, and the other way round. Where the
   // two values disagree, each record ends before the other.
-  void limitDisagreeing(uint32_t index) {
-    IrradianceRecord& fresh = records[index];
+  void limitLast() {
+    IrradianceRecord& fresh = records.back();
     for (const Candidate& candidate : candidatesAt(fresh.position, fresh.normal, fresh.pixelSize)) {
       IrradianceRecord& old = records[candidate.record];
       const float distance = glm::length(fresh.position - old.position),
@@ -71,6 +71,7 @@ struct IrradianceCache::Impl {
       const Disagreement ofFresh =
           disagreements.of(extrapolate(fresh, old.position, old.normal), old.light.E, fromFresh + old.noise);
       old.limit = std::min(old.limit, disagreements.limit(ofOld, distance, old.pixelSize));
+      tree.limit(candidate.record, old.limit);
       fresh.limit = std::min(fresh.limit, disagreements.limit(ofFresh, distance, fresh.pixelSize));
     }
   }
@@ -89,16 +90,10 @@ struct IrradianceCache::Impl {
   /// Fills search.vicinity with all records that may serve a place in this region. They are in the order of the
   /// records, so that sums do not depend on the shape of the tree.
   void findNear(const Bound3& region, const Range& farthest, Search& search) const {
-    const auto reachOf = [&](float recordSize) {
-      return (1 + kSlack) * farthest.wider * farthest.radiusOf(recordSize);
-    };
+    const float scale = (1 + kSlack) * farthest.wider;
+    const auto reachOf = [&](float recordSize) { return scale * farthest.radiusOf(recordSize); };
     search.near.clear();
-    tree.visit(region, reachOf, [&](uint32_t i) {
-      const IrradianceRecord& r = records[i];
-      const vec3 off = r.position - glm::clamp(r.position, region.lo, region.hi);
-      const float radius = std::min(reachOf(unclampedRadius(r)), (1 + kSlack) * r.limit);
-      if (dot(off, off) <= radius * radius) search.near.push_back(i);
-    });
+    tree.visit(region, reachOf, 1 + kSlack, [&](uint32_t i) { search.near.push_back(i); });
     std::ranges::sort(search.near);
     search.vicinity.assign(search.near, records, [this](const IrradianceRecord& r) { return unclampedRadius(r); });
   }
@@ -216,14 +211,14 @@ void IrradianceCache::insert(const IrradianceRecord& record) {
   if (!(impl.settings.kappa < kInfinity)) return;
   if (impl.has(Amendment::Slopes))
     limitDerivatives(impl.records.back(), impl.reach(impl.unclampedRadius(record), record.pixelSize));
-  impl.limitDisagreeing(static_cast<uint32_t>(impl.records.size() - 1));
-  impl.insert(static_cast<uint32_t>(impl.records.size() - 1));
+  impl.limitLast();
+  impl.insertLast();
 }
 
 void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
   impl_->disagreements.add(luminance(record.light.E));
-  if (impl_->settings.kappa < kInfinity) impl_->insert(static_cast<uint32_t>(impl_->records.size() - 1));
+  if (impl_->settings.kappa < kInfinity) impl_->insertLast();
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,
