@@ -17,7 +17,7 @@ constexpr float kVisible_px = 1;
 /// Polygons of 16 pixels cut the tops off bumps that are as wide (docs/measured/truth.md).
 constexpr int kFiner = 4;
 /// All polygons of chosen objects are no more than the pixels of the picture, or than this.
-constexpr double kAlwaysQuads = 1 << 17;
+constexpr double kAlwaysDisplacedQuads = 1 << 17;
 /// A displacement is measured at about kProbedPoints points, in at most kProbedPatches patches of a group.
 constexpr size_t kProbedPoints = 4096, kProbedPatches = 64;
 constexpr int kFewestCells = 4, kMostCells = 32;  ///< Limits on the cells of a probed patch along u and v.
@@ -116,7 +116,7 @@ class Chooser {
         log_(log),
         patches_(scene.groups.size()),
         reliefs_(scene.groups.size()),
-        quadsLeft_(std::max(kAlwaysQuads, 1.0 * camera.xResolution() * camera.yResolution())) {
+        quadsLeft_(std::max(kAlwaysDisplacedQuads, 1.0 * camera.xResolution() * camera.yResolution())) {
     for (size_t i = 0; i < scene_.objects.size(); ++i) {
       const Object& o = scene_.objects[i];
       if (!isUndecided(*o.attributes)) continue;

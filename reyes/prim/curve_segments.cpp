@@ -13,17 +13,17 @@ Cubic<T> straight(const T& a, const T& b) {
   return {a, a + (b - a) / 3.0f, b + (a - b) / 3.0f, b};
 }
 
-struct Layout {
+struct CurveLayout {
   std::vector<CurveSegment> segments;
   PrimvarCounts counts;
 };
 
-class LayoutMaker {
+class CurveLayoutMaker {
  public:
-  LayoutMaker(bool cubic, int step, bool periodic)
+  CurveLayoutMaker(bool cubic, int step, bool periodic)
       : span_(cubic ? 4 : 2), step_(cubic ? step : 1), periodic_(periodic) {}
 
-  Layout make(const std::vector<int>& vertexCounts) {
+  CurveLayout make(const std::vector<int>& vertexCounts) {
     if (step_ < 1) throw PrimError(fmt::format("the step of the basis is {}", step_));
     for (const int count : vertexCounts) add(count);
     out_.counts = {vertexCounts.size(), corner_, vertex_, corner_};
@@ -58,7 +58,7 @@ class LayoutMaker {
   const int span_, step_;
   const bool periodic_;
   uint32_t curve_ = 0, corner_ = 0, vertex_ = 0;
-  Layout out_;
+  CurveLayout out_;
 };
 
 }  // namespace
@@ -79,7 +79,7 @@ CurveSegments::CurveSegments(bool cubic, const Basis& basis, const std::vector<i
   size_t vertices = 0;
   for (const int count : vertexCounts) vertices += static_cast<size_t>(std::max(0, count));
   const std::vector<vec3> points = takePositions(params, Count::Exactly, vertices, problems);
-  Layout layout = LayoutMaker(cubic, basis.step, periodic).make(vertexCounts);
+  CurveLayout layout = CurveLayoutMaker(cubic, basis.step, periodic).make(vertexCounts);
   segments_ = std::move(layout.segments);
   primvars = takePrimvars(params, layout.counts, problems);
   const Primvar width = widthOf(primvars);

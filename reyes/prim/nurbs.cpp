@@ -91,7 +91,7 @@ void restrictCurve(glm::dvec4* c, int step, int order, double t0, double t1) {
   for (int k = 0; k < order; ++k) c[k * step] = piece[k];
 }
 
-vec3 projected(const glm::dvec4& h) { return vec3(glm::dvec3(h) / h.w); }
+vec3 fromHomogeneous(const glm::dvec4& h) { return vec3(glm::dvec3(h) / h.w); }
 
 }  // namespace
 
@@ -162,12 +162,12 @@ Bound3 boundRational(const RationalNet& net, const UvRect& rect) {
   const int count = net.uOrder * net.vOrder;
   std::vector<glm::dvec4> c(net.controls, net.controls + count);
   Bound3 whole, bound;
-  for (const glm::dvec4& h : c) whole.extend(projected(h));
+  for (const glm::dvec4& h : c) whole.extend(fromHomogeneous(h));
   for (int j = 0; j < net.vOrder; ++j)
     restrictCurve(&c[static_cast<size_t>(j * net.uOrder)], 1, net.uOrder, rect.u0, rect.u1);
   for (int i = 0; i < net.uOrder; ++i)
     restrictCurve(&c[static_cast<size_t>(i)], net.uOrder, net.vOrder, rect.v0, rect.v1);
-  for (const glm::dvec4& h : c) bound.extend(projected(h));
+  for (const glm::dvec4& h : c) bound.extend(fromHomogeneous(h));
   return paddedForRounding(bound, whole);
 }
 

@@ -13,14 +13,14 @@ constexpr int kMostHalvings = 16;
 constexpr double kGap = 1e-4;  ///< Ends of curves no farther apart than this are joined without a warning.
 constexpr size_t kMostSlabs = 256;
 
-glm::dvec2 projected(const glm::dvec3& h) { return glm::dvec2(h) / h.z; }
+glm::dvec2 fromHomogeneous(const glm::dvec3& h) { return glm::dvec2(h) / h.z; }
 
 /// Tells whether the control polygon stays near its chord. The curve lies in its hull.
 bool isFlat(const std::vector<glm::dvec3>& c) {
-  const glm::dvec2 a = projected(c.front()), chord = projected(c.back()) - a;
+  const glm::dvec2 a = fromHomogeneous(c.front()), chord = fromHomogeneous(c.back()) - a;
   const double length2 = glm::dot(chord, chord);
   for (size_t i = 1; i + 1 < c.size(); ++i) {
-    const glm::dvec2 p = projected(c[i]) - a;
+    const glm::dvec2 p = fromHomogeneous(c[i]) - a;
     const double along = length2 > 0 ? std::clamp(glm::dot(p, chord) / length2, 0.0, 1.0) : 0;
     if (glm::length(p - along * chord) > kFlatness) return false;
   }
@@ -29,7 +29,7 @@ bool isFlat(const std::vector<glm::dvec3>& c) {
 
 /// Appends the ends of the chords except the first, by de Casteljau's halving.
 void flatten(std::vector<glm::dvec3> c, int halvings, std::vector<glm::dvec2>& out) {
-  if (halvings == kMostHalvings || isFlat(c)) return out.push_back(projected(c.back()));
+  if (halvings == kMostHalvings || isFlat(c)) return out.push_back(fromHomogeneous(c.back()));
   std::vector<glm::dvec3> left;
   for (size_t last = c.size(); last > 0; --last) {
     left.push_back(c[0]);
@@ -52,7 +52,7 @@ std::vector<glm::dvec2> polylineOf(const TrimCurve& curve, const vec2& begin, co
         bezier[k] += span.weights[k * order + i] * glm::dvec3(curve.controls[static_cast<size_t>(span.segment) + i]);
       bezier[k] = {(glm::dvec2(bezier[k]) - from * bezier[k].z) / size, bezier[k].z};
     }
-    if (out.empty()) out.push_back(projected(bezier.front()));
+    if (out.empty()) out.push_back(fromHomogeneous(bezier.front()));
     flatten(std::move(bezier), 0, out);
   }
   return out;

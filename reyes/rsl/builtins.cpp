@@ -9,7 +9,7 @@
 namespace tomales::compiler {
 namespace {
 
-struct Row {
+struct BuiltinRow {
   /// The declaration as RSL writes it: "result name(types)". T stands for each of float, color, point, vector and
   /// normal in turn, V for each of the four triples, and `any` for every type; `out` marks an argument that is
   /// assigned; ... stands for Builtin::more.
@@ -20,7 +20,7 @@ struct Row {
 };
 
 // clang-format off
-constexpr Row kRows[] = {
+constexpr BuiltinRow kRows[] = {
     // Mathematics (RISpec 15.1)
     {"float sin(float)", Op::Sin}, {"float cos(float)", Op::Cos}, {"float tan(float)", Op::Tan},
     {"float asin(float)", Op::Asin}, {"float acos(float)", Op::Acos}, {"float atan(float)", Op::Atan},
@@ -166,7 +166,7 @@ Builtin readingOf(std::string_view signature, Base letter) {
   return out;
 }
 
-Builtin readingOf(const Row& row, Base letter) {
+Builtin readingOf(const BuiltinRow& row, Base letter) {
   Builtin out = readingOf(row.signature, letter);
   out.op = row.op;
   out.emit = row.emit;
@@ -176,7 +176,7 @@ Builtin readingOf(const Row& row, Base letter) {
 
 std::vector<Builtin> readAll() {
   std::vector<Builtin> out;
-  for (const Row& row : kRows) {
+  for (const BuiltinRow& row : kRows) {
     const std::string_view text = row.signature;
     const auto has = [&](const char* letter) {
       return text.starts_with(std::string(letter) + " ") || text.find(std::string("(") + letter) != text.npos ||

@@ -6,7 +6,7 @@ namespace tomales {
 namespace {
 
 constexpr int kPanels = 160;
-constexpr float kSide = 0.3f, kHeight = 2, kReach = 0.01f;
+constexpr float kSide = 0.3f, kPanelHeight = 2, kReach = 0.01f;
 const vec3 kPlace(-1, 0.2f, 5);
 
 /// Square panels in the plane z = 2 that shine towards +z.
@@ -16,7 +16,7 @@ class Panels : public ShadeServices {
 
   static vec3 center(int light) {
     const auto random = [&](uint32_t k) { return 6 * unitFloat(hashCombine(static_cast<uint32_t>(light), k)) - 3; };
-    return {random(1), random(2), kHeight};
+    return {random(1), random(2), kPanelHeight};
   }
   static void put(const EmitterPoints& out, int i, const vec3& from, const vec3& at) {
     const vec3 path = at - from;
@@ -34,7 +34,7 @@ class Panels : public ShadeServices {
   void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
                    const EmitterPoints& out) const override {
     for (int i = 0; i < count; ++i) {
-      const vec3 P = get(from, i), d = get(direction, i), at = P + d * ((kHeight - P.z) / d.z);
+      const vec3 P = get(from, i), d = get(direction, i), at = P + d * ((kPanelHeight - P.z) / d.z);
       const vec3 off = glm::abs(at - center(light));
       if (d.z < 0 && off.x < kSide / 2 && off.y < kSide / 2)
         put(out, i, P, at);
@@ -55,7 +55,7 @@ class Panels : public ShadeServices {
       if (!active[i]) continue;
       const vec3 end = points.position(i) + get(toward, i);
       ++shadowRays;
-      misled += std::abs(end.z - kHeight - kReach) > 1e-4f;
+      misled += std::abs(end.z - kPanelHeight - kReach) > 1e-4f;
       if (end.x > 0) set(light, i, vec3(0.0f));
     }
   }
