@@ -61,7 +61,7 @@ class Blobby : public Prim {
   BlobMesh carriedTo(const BlobField& moved) const { return carriedMesh(mesh_, field_, moved); }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(mesh_.quads.size()); }
-  PatchInfo info(uint32_t) const override { return {false, 0}; }
+  PatchInfo info(uint32_t) const override { return {.openEdges = 0}; }
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
     const Bound3 hull = hullOf(patch, rect);

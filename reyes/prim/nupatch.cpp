@@ -62,7 +62,7 @@ class NuPatch : public Prim {
   uint32_t patchCount() const override {
     return static_cast<uint32_t>(u_.patches()) * static_cast<uint32_t>(v_.patches());
   }
-  PatchInfo info(uint32_t patch) const override { return {false, findOpenEdges(patch)}; }
+  PatchInfo info(uint32_t patch) const override { return {.openEdges = findOpenEdges(patch)}; }
   Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundRational(net(patch), rect); }
 
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {

@@ -222,7 +222,7 @@ class Spheres : public Particles {
  public:
   using Particles::Particles;
 
-  PatchInfo info(uint32_t) const override { return {false, 0}; }
+  PatchInfo info(uint32_t) const override { return {.openEdges = 0}; }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     const Bound3 sampled = boundOfSamples(r, [&](float u, float v) {

@@ -51,7 +51,7 @@ class SubdivisionMesh : public Prim {
   }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(patches_.size()); }
-  PatchInfo info(uint32_t patch) const override { return {false, patches_[patch].openEdges}; }
+  PatchInfo info(uint32_t patch) const override { return {.openEdges = patches_[patch].openEdges}; }
 
   Bound3 bound(uint32_t patch, const UvRect& rect) const override {
     const Patch& p = patches_[patch];

@@ -190,7 +190,7 @@ class Teapot : public Prim {
   }
 
   uint32_t patchCount() const override { return static_cast<uint32_t>(patches_.size()); }
-  PatchInfo info(uint32_t patch) const override { return {false, openEdges_[patch]}; }
+  PatchInfo info(uint32_t patch) const override { return {.openEdges = openEdges_[patch]}; }
   Bound3 bound(uint32_t patch, const UvRect& rect) const override { return boundBicubic(patches_[patch], rect); }
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     evaluateBicubic(patches_[patch], n, u, v, out);

@@ -35,7 +35,7 @@ class Tubes : public Prim {
   }
 
   uint32_t patchCount() const override { return segments_.count() + static_cast<uint32_t>(ends_.size()); }
-  PatchInfo info(uint32_t) const override { return {false, 0}; }
+  PatchInfo info(uint32_t) const override { return {.openEdges = 0}; }
 
   Bound3 bound(uint32_t patch, const UvRect& r) const override {
     const End* end = endOf(patch);

@@ -56,6 +56,20 @@ TEST(PatchMesh, BoundsOfSmallPiecesAreTight) {
   EXPECT_LT(glm::length(size), 0.05f * glm::length(whole));
 }
 
+TEST(PatchMesh, APartOfABilinearPatchIsBoundedByItsCorners) {
+  Problems problems;
+  const PrimPtr prim = makeBilinearPatchMesh(2, false, 2, false, {positions(randomPoints(2, 2))}, problems);
+  const UvRect part{0.4f, 0.7f, 0.6f, 0.8f};
+  Bound3 corners;
+  for (const float u : {part.u0, part.u1})
+    for (const float v : {part.v0, part.v1}) corners.extend(sampleAt(*prim, 0, u, v).p);
+  const Bound3 bound = prim->bound(0, part);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(bound.lo[axis], corners.lo[axis], 1e-5f);
+    EXPECT_NEAR(bound.hi[axis], corners.hi[axis], 1e-5f);
+  }
+}
+
 /// Control points along u that depend on x only, for a mesh that is straight in v.
 vec3 onCurve(const Basis& basis, const std::vector<vec3>& controls, float u) {
   std::vector<float> p;
@@ -182,6 +196,16 @@ TEST(PatchMesh, HeightsAndHomogeneousPointsMustBeFiniteAndOneForEachVertex) {
   EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, 3}), "Pz has 3 values where 4 vertices need 4 floats");
   EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, NAN, 3}), "Pz of vertex 2 is not a finite number");
   EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, 3, 4}), "");
+}
+
+TEST(PatchMesh, HasAtMostAMillionControlPointsAlongADirection) {
+  Problems problems;
+  constexpr int kMost = 1 << 20;
+  const auto error = [&](int controls) {
+    return errorOf([&] { makeBilinearPatchMesh(controls, false, 2, false, {positions({})}, problems); });
+  };
+  EXPECT_NE(error(kMost).find("vertices need"), std::string::npos) << error(kMost);
+  EXPECT_EQ(error(kMost + 1), "the mesh has 1048577 control points along u");
 }
 
 TEST(PatchMesh, AMeshThatEndsWhereItBeganIsClosedThere) {

@@ -54,6 +54,44 @@ TEST(Quadric, AreaOfADicedHyperboloidTendsToTheIntegralOfItsCircles) {
   expectAreaAtSecondOrder(*hyperboloid(), area);
 }
 
+TEST(Quadric, OfTheTableIsMadeOfItsNumbersAndHasNoAreaWhereOneOfThemLeavesNone) {
+  const std::vector<std::tuple<const char*, std::vector<float>, PrimPtr>> all = {
+      {"Sphere", {2, -2, 2, 360}, ballOfTwo()},     {"Cone", {3, 2, 360}, cone()},
+      {"Cylinder", {2, -1, 3, 360}, cylinder()},    {"Hyperboloid", {1, -1, -1, 1, 1, 1, 360}, hyperboloid()},
+      {"Paraboloid", {2, 0, 3, 360}, paraboloid()}, {"Disk", {0.5f, 2, 360}, disk()},
+      {"Torus", {3, 1, 0, 360, 360}, torus()}};
+  EXPECT_EQ(all.size(), quadrics().size());
+  for (const auto& [name, numbers, direct] : all) {
+    const Quadric* const entry = findQuadric(name);
+    ASSERT_TRUE(entry) << name;
+    ASSERT_EQ(entry->numberCount, static_cast<int>(numbers.size())) << name;
+    const PrimPtr made = entry->make(numbers.data(), {}, none);
+    ASSERT_TRUE(made) << name;
+    EXPECT_EQ(sampleAt(*made, 0, 0.3f, 0.6f).p, sampleAt(*direct, 0, 0.3f, 0.6f).p) << name;
+    EXPECT_FALSE(entry->hasNoArea(numbers.data())) << name;
+    std::vector<float> flat = numbers;
+    flat.back() = 0;  // thetamax
+    EXPECT_TRUE(entry->hasNoArea(flat.data())) << name;
+  }
+  EXPECT_EQ(findQuadric("Cube"), nullptr);
+  for (const auto& [name, numbers] :
+       std::vector<std::pair<const char*, std::vector<float>>>{{"Sphere", {0, -2, 2, 360}},
+                                                               {"Sphere", {2, 1, 1, 360}},
+                                                               {"Cone", {3, 0, 360}},
+                                                               {"Cylinder", {0, -1, 3, 360}},
+                                                               {"Cylinder", {2, 3, 3, 360}},
+                                                               {"Hyperboloid", {1, 2, 3, 1, 2, 3, 360}},
+                                                               {"Paraboloid", {0, 0, 3, 360}},
+                                                               {"Paraboloid", {2, 3, 3, 360}},
+                                                               {"Disk", {0.5f, 0, 360}},
+                                                               {"Torus", {3, 0, 0, 360, 360}},
+                                                               {"Torus", {3, 1, 90, 90, 360}}})
+    EXPECT_TRUE(findQuadric(name)->hasNoArea(numbers.data())) << name;
+  const float flatCone[] = {0, 2, 360}, flatDisk[] = {0, 2, 360};
+  EXPECT_FALSE(findQuadric("Cone")->hasNoArea(flatCone)) << "it is a disk";
+  EXPECT_FALSE(findQuadric("Disk")->hasNoArea(flatDisk)) << "its height";
+}
+
 TEST(Quadric, DerivativesAgreeWithFiniteDifferences) {
   for (const PrimPtr& prim : manyQuadrics()) expectDerivativesOfPositions(*prim, 2e-3f);
 }

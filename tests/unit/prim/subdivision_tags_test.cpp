@@ -54,6 +54,17 @@ TEST(SubdivisionTag, OfBoundariesChoosesAmongItsValues) {
   EXPECT_FALSE(Read("facevaryingpropagatecorners", {}).tags.propagateCorners);
 }
 
+TEST(SubdivisionTag, OfANameThatIsGivenTwiceCountsAsGivenLast) {
+  const auto last = [](const std::string& name, int first, int second) {
+    Problems problems;
+    return readTags({{name, name}, {1, 0, 0, 1, 0, 0}, {first, second}, {}, {}}, EdgeFaces({4}, {0, 1, 2, 3}), 1, 4,
+                    problems);
+  };
+  EXPECT_EQ(last("interpolateboundary", 2, 0).boundary, MeshTags::Boundary::None);
+  EXPECT_EQ(last("facevaryinginterpolateboundary", 2, 0).faceVarying, MeshTags::FaceVaryingBoundary::Linear);
+  EXPECT_FALSE(last("smoothtriangles", 2, 0).smoothTriangles);
+}
+
 TEST(SubdivisionTag, WithTooFewArgumentsThrowsASentence) {
   Problems problems;
   for (const std::vector<int>& counts :
