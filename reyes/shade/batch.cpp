@@ -59,9 +59,7 @@ std::vector<TmValue> Batch::laidOut(const BoundShader& shader) const {
 }
 
 void Batch::setCommon(int count, const BoundShader& shader) {
-  tm = {};
   own = &shader;
-  values_.clear();
   tm.structBytes = sizeof(TmGrid);
   tm.count = count;
   tm.padded = padded(count);
@@ -73,12 +71,8 @@ void Batch::setCommon(int count, const BoundShader& shader) {
   const Options& options = scene.scene.options;
   tm.time = options.shutterOpen;
   tm.dtime = options.shutterClose - options.shutterOpen;
-  tm.clip[0] = scene.scene.options.nearClip;
-  tm.clip[1] = scene.scene.options.farClip;
-  lights = {};
-  stencil = {};
-  wide_.reset();
-  gathered.who = nullptr;
+  tm.clip[0] = options.nearClip;
+  tm.clip[1] = options.farClip;
 }
 
 void Batch::setVariables() {
@@ -169,7 +163,6 @@ void Batch::setRemote(const Batch& asking, const TmGrid* g, const ShadePoints& m
   own = asking.own;
   running = asking.running;
   points = &moved;
-  values_.clear();
   tm = asking.tm;
   tm.host = this;
   uint8_t* active = arena.bytes(tm.padded);

@@ -1,5 +1,6 @@
-// One sub-batch of points (or one grid to displace) while its shader runs; TmGrid::host points to it. Threads: one
-// thread uses it; its BoundScene is shared and constant.
+// One sub-batch of points (or one grid to displace) while its shader runs; TmGrid::host points to it. One of its
+// functions whose names begin with "set" is called, once. Threads: one thread uses it; its BoundScene is shared and
+// constant.
 #pragma once
 #include "reyes/base/crash_note.h"
 #include "reyes/grid.h"
@@ -48,8 +49,8 @@ class Batch {
   bool hasPrimvars() const;
   /// Returns values of the primitive variables at the points and their neighbours. Pre: hasPrimvars().
   const float* primvar(int offset) const;
-  /// Returns the parameters of a shader of the group, including those that primitive variables give. They are valid
-  /// until the batch is set anew.
+  /// Returns the parameters of a shader of the group, including those that primitive variables give. They are valid as
+  /// long as the batch.
   const std::vector<TmValue>& valuesOf(const BoundShader& shader);
 
   /// Calls the shader. Returns false, after a report, if it has thrown.

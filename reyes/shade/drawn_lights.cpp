@@ -118,8 +118,9 @@ TmVec3 beforeEmitters(Batch& batch, const LightSet& drawn, const std::vector<Lig
   const TmVec3 toward = batch.arena.vec3(g.count);
   for (int i = 0; i < g.count; ++i) {
     const uint32_t light = at[static_cast<size_t>(i)].light;
-    const float reach = light == kNoLight ? 0 : batch.scene.services->emitterReach(drawn.lights[light]->index);
-    set(toward, i, get(g.L, i) + reach * get(g.Nl, i));
+    vec3 path = get(g.L, i);
+    if (light != kNoLight) path += batch.scene.services->emitterReach(drawn.lights[light]->index) * get(g.Nl, i);
+    set(toward, i, path);
   }
   return toward;
 }

@@ -34,8 +34,8 @@ struct Descent {
 
 /// The places of some lamps, weighted by their power.
 struct Places {
-  double power = 0;
-  glm::dvec3 mean{0}, variance{0};
+  double power;
+  glm::dvec3 mean, variance;
 };
 
 /// Returns the places of one lamp, taken as uniform over its bound.

@@ -177,6 +177,9 @@ TEST_F(BatchPictures, PicturesAndLightsTellWhatTheyHold) {
     EXPECT_FALSE(textureinfo(path.c_str(), "resolution", kind)) << "numbers are no text";
     EXPECT_TRUE(textureinfo(path.c_str(), "type", kind));
     EXPECT_EQ(kind, "texture");
+    int32_t type = -1;
+    TmValue unset{};
+    EXPECT_FALSE(grid()->call->textureInfo(grid()->host, grid(), path.c_str(), "weather", &type, &unset));
     Float intensity = 0;
     s.illuminance(s.P, s.N, 1.5f, [&] { EXPECT_TRUE(lightsource(s.lightNumber, "intensity", intensity)); });
     s.Ci = Color(ftexture(path.c_str(), 1, 0.5 + 0.1 * s.u, s.v), zcomp(environment(path.c_str(), Vector(s.u, 1, 0))),

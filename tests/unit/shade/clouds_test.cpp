@@ -22,6 +22,10 @@ class FakeClouds : public CloudServices {
       problem = "the disk is full";
       return false;
     }
+    if (q.file == "absent.ptc") {
+      problem = "cannot be there";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i)
       if (q.active[i]) baked.push_back({at(q.P, i), at(q.N, i), q.radius[i], values.at(0).c[0][i]});
     return true;
@@ -38,7 +42,11 @@ class FakeClouds : public CloudServices {
     }
     return true;
   }
-  bool photons(const CloudQuery& q, const TmPhotonOptions& lookup, TmVec3 E, std::string&) override {
+  bool photons(const CloudQuery& q, const TmPhotonOptions& lookup, TmVec3 E, std::string& problem) override {
+    if (q.file == "absent.ptc") {
+      problem = "is not there";
+      return false;
+    }
     for (int i = 0; i < q.count; ++i)
       if (q.active[i]) {
         E.x[i] = static_cast<float>(lookup.estimator);
@@ -159,6 +167,24 @@ struct distant : sl::Surface {
     Oi = sl::Color(1.0);
   }
 };
+/// What each call answers about its file.
+std::string cloudFile;
+std::vector<int32_t> answers;
+void answering(const TmGrid* g) {
+  const TmConstVec3 P = rsl::view(g->P), N = rsl::view(g->N);
+  const char* const name = cloudFile.c_str();
+  rsl::Array found(g), x(g);
+  rsl::Vec3Array light(g);
+  const TmChannel value{"x", {x.data(), nullptr, nullptr}};
+  TmOcclusion disks = tmOcclusionDefaults();
+  disks.pointCloud = name;
+  answers = {g->call->texture3d(g->host, g, name, nullptr, P, N, &value, 1, found.data()),
+             g->call->photonMap(g->host, g, name, nullptr, P, N, light),
+             g->call->subsurface(g->host, g, name, nullptr, P, light),
+             g->call->occlusion(g->host, g, nullptr, P, N, &disks),
+             g->call->bake3d(g->host, g, name, nullptr, P, N, &value, 1)};
+}
+const rsl::Shader answeringShader(TM_SURFACE, "answering", "", 0, answering, {});
 const rsl::Shader distantShader(TM_SURFACE, "distant", "", 0, sl::shade<distant>, {});
 const rsl::Shader listingShader(TM_SURFACE, "listing", "", 0, sl::shade<listing>, {});
 const rsl::Shader causticShader(TM_SURFACE, "causticlight", "", 0, sl::shade<causticlight>, {});
@@ -173,8 +199,9 @@ const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader,  neighbourShader,  findingShader, waxShader,
-                                              causticShader, pointbasedShader, listingShader, distantShader};
+    static const TmShader* const shaders[] = {bakingShader,  neighbourShader, findingShader,
+                                              waxShader,     causticShader,   pointbasedShader,
+                                              listingShader, distantShader,   answeringShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
@@ -277,6 +304,16 @@ TEST_F(CloudCalls, ABodyBakesWhatEntersForLaterFrames) {
   system().setClouds(&clouds);
   shade(row());
   EXPECT_EQ(clouds.baked.size(), row().count());
+}
+
+TEST_F(CloudCalls, TellWhetherTheyKnowTheirFile) {
+  surface("answering");
+  system().setClouds(&clouds);
+  for (const int known : {1, 0}) {
+    cloudFile = known ? "known.ptc" : "absent.ptc";
+    shade(row());
+    EXPECT_EQ(answers, std::vector<int32_t>(5, known));
+  }
 }
 
 TEST_F(CloudCalls, WithoutItsCloudNoLightIsDiffusedAndTheUserIsTold) {

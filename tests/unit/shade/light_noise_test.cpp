@@ -64,6 +64,11 @@ TEST_F(LightNoises, CountInThePictureAlone) {
   EXPECT_FALSE(isSaid(200, 0, 0, {.illumination = Illumination::Stored}));
 }
 
+TEST_F(LightNoises, AreNotThoseOfALampOfOneSampleWhichHasNoHalves) {
+  light("arealight", {number("samples", 1), number("intensity", 100)}, true).handle = "single";
+  EXPECT_FALSE(isSaid(0, 200));
+}
+
 TEST_F(LightNoises, NameTheLampThatBringsMost) {
   light("distantlight", {number("intensity", 1e-6f)});
   light("arealight", {number("samples", 2), number("intensity", 1e-6f)}, true).handle = "dim";

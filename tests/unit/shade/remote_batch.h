@@ -25,7 +25,7 @@ inline rsl::FloatParam power("power", 1, "");
 inline rsl::ColorParam tint("tint", {1, 1, 1}, "");
 inline rsl::StringParam word("word", "unsaid", "");
 inline rsl::UniformFloatParam whole("whole", 0, "");
-inline rsl::FloatOutput doubled("doubled", ""), normalLength("normallength", "");
+inline rsl::FloatOutput doubled("doubled", ""), normalLength("normallength", ""), facetLength("facetlength", "");
 inline void shadeCounting(const TmGrid* g) {
   const rsl::Batch b(g);
   for (int i : b) {
@@ -33,6 +33,7 @@ inline void shadeCounting(const TmGrid* g) {
     const rsl::Vec3 P = rsl::get(g->P, i), N = rsl::get(g->N, i);
     doubled.set(g, i, 2 * power(g, i));
     normalLength.set(g, i, rsl::length(N));
+    facetLength.set(g, i, rsl::length(rsl::get(g->Ng, i)));
     b.illuminate(i, rsl::Vec3{0, 0, -1} - P,
                  (std::string_view(word(g)) == "said" ? 100.0f : 1.0f) * power(g, i) * tint(g, i));
   }
@@ -41,7 +42,7 @@ inline void shadeCounting(const TmGrid* g) {
 inline const rsl::Shader outsideShader(TM_SURFACE, "outside", "", TM_TRACES, sl::shade<outside>, {});
 inline const rsl::Shader betweenShader(TM_VOLUME, "between", "", 0, sl::shade<between>, {});
 inline const rsl::Shader countingShader(TM_LIGHT, "counting", "", 0, shadeCounting,
-                                        {&power, &tint, &word, &whole, &doubled, &normalLength});
+                                        {&power, &tint, &word, &whole, &doubled, &normalLength, &facetLength});
 
 class Elsewhere : public Stage {
  protected:

@@ -78,6 +78,12 @@ TEST_F(RslFiles, MayHaveOtherNamesThanTheirShaders) {
   EXPECT_EQ(registry.hintOfMissing("green", TM_SURFACE, folder, ""), "") << "it is not known to the registry";
 }
 
+TEST_F(RslFiles, ThatHaveTheShadersNameAndHoldItComeBeforeOthersThatHoldIt) {
+  write("another.sl", "surface paint(float b = 1;) {}");
+  write("paint.sl", kPaint);
+  EXPECT_STREQ(find("paint")->params[0].name, "a");
+}
+
 TEST_F(RslFiles, AreCompiledAgainWhenTheyOrWhatTheyIncludeChanges) {
   write("part.h", "#define VALUE 1\n");
   const std::string path = write("paint.sl", "#include \"part.h\"\nsurface paint(float a = VALUE;) { Ci = a; }");

@@ -25,9 +25,11 @@ TEST_F(Smoke, IndirectLightReachesSurfacesAndNotTheAir) {
   inVolume = [&](sl::Volume& v) {
     v.illuminance(v.P - 0.5 * v.I, [&] {
       ++inAir;
-      Float length = -1;
-      lightsource(v.lightNumber, "normallength", length);
-      EXPECT_EQ(length[0], 0);
+      for (const char* normal : {"normallength", "facetlength"}) {
+        Float length = -1;
+        lightsource(v.lightNumber, normal, length);
+        EXPECT_EQ(length[0], 0) << normal << ": no surface is there";
+      }
     });
   };
   ShadePoints p = points({vec3(0, 0, 5)});
