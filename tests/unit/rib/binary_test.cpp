@@ -145,6 +145,27 @@ TEST(ByteStream, StopsAtGzipBombs) {
   EXPECT_LT(bytes, rib::ByteStream::kHarmless_bytes + (1 << 20));
 }
 
+TEST(ByteStream, StopsAtNothingThatIsHarmlessOrSwellsLess) {
+  const auto isBomb = [](const std::string& packed) {
+    const auto stream = rib::ByteStream::fromMemory(packed);
+    while (stream->peek() != rib::ByteStream::kEnd) stream->skipTo(stream->end());
+    return stream->damaged();
+  };
+  // A name in its header makes the file larger, up to the wanted size.
+  const auto packed = [](size_t unpackedSize, size_t size) {
+    std::string out = rib::gzip(std::string(unpackedSize, ' '));
+    if (size <= out.size()) return out;
+    out[3] = 8;
+    return out.insert(10, std::string(size - out.size() - 1, 'n') + '\0');
+  };
+  using rib::ByteStream;
+  EXPECT_FALSE(isBomb(packed(ByteStream::kHarmless_bytes, 0)));
+  EXPECT_TRUE(isBomb(packed(ByteStream::kHarmless_bytes + 1, 0)));
+  constexpr size_t kSize = size_t{6} << 16;
+  EXPECT_FALSE(isBomb(packed(ByteStream::kLargestRatio * kSize, kSize)));
+  EXPECT_TRUE(isBomb(packed(ByteStream::kLargestRatio * kSize, kSize - 1)));
+}
+
 TEST(Number, ScansLikeStrtofAndStrtodToTheLastBit) {
   std::mt19937_64 random(3);
   const auto check = [](const std::string& text) {

@@ -105,6 +105,20 @@ TEST(ByteStream, UnpacksGzipAndConcatenatedGzip) {
   EXPECT_EQ(list[50000].number.wide, 77);
 }
 
+TEST(ByteStream, TakesAfterGzipNothingButGzip) {
+  using namespace std::string_literals;
+  const std::string zlib = "\x78\x9c\x33\x37\x07\0\0\xa7\0\x6f"s;  // "77" in the wrapping of zlib
+  for (const std::string& rest : {zlib, "77"s}) {
+    const std::string packed = gzip("1 ") + rest;
+    const auto stream = ByteStream::fromMemory(packed);
+    Lexer lexer(*stream, "scene.rib");
+    EXPECT_EQ(lexer.peek().number.wide, 1);
+    lexer.advance();
+    EXPECT_EQ(lexer.peek().kind, Kind::End);
+    EXPECT_TRUE(stream->damaged());
+  }
+}
+
 TEST(ByteStream, ReadsDamagedGzipUpToTheDamage) {
   const std::string whole = gzip("1 2 3 4 5 6 7 8 9 10 11 12"), cut = whole.substr(0, whole.size() - 9);
   const auto stream = ByteStream::fromMemory(cut);
