@@ -174,13 +174,18 @@ class Rectangle final : public Prim {
   Bound3 bound(uint32_t, const UvRect&) const override { return {vec3(0), vec3(2, 3, 0)}; }
   void evaluate(uint32_t patch, int n, const float* u, const float* v, SurfacePoints out) const override {
     for (int i = 0; i < n; ++i) {
+      EXPECT_TRUE(u[i] >= 0 && u[i] <= 1 && v[i] >= 0 && v[i] <= 1) << "a patch has nothing beyond its edges";
       out.px[i] = u[i] + static_cast<float>(patch);
       out.py[i] = 3 * v[i];
       out.pz[i] = 0;
     }
   }
   void interpolate(uint32_t, int, int, const float*, const float*, float*, int) const override {}
-  Kept kept(uint32_t, const UvRect&) const override { return isTrimmed ? Kept::Part : Kept::All; }
+  Kept kept(uint32_t patch, const UvRect& r) const override {
+    if (!isTrimmed) return Kept::All;
+    if (patch != 0 || r.u0 >= r.v1) return Kept::None;
+    return r.u1 <= r.v0 ? Kept::All : Kept::Part;
+  }
   bool keeps(uint32_t patch, float u, float v) const override { return !isTrimmed || (patch == 0 && u < v); }
 
   bool isTrimmed = false;

@@ -64,6 +64,37 @@ TEST_F(BatchRays, OcclusionTellsOfTheEnvironmentWhereRaysLeave) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+TEST_F(BatchRays, BeginAtTheirPointOrAllOverItsMicropolygon) {
+  std::vector<vec3> from;
+  services.met = [&](const vec3& P, const vec3&) {
+    from.push_back(P);
+    return 1.0f;
+  };
+  ShadePoints p = points({vec3(0, 0, 5)});
+  p.set3(kDpduX, 0, {2, 0, 0});
+  p.set3(kDpdvX, 0, {0, 3, 0});
+  p.channel(kDu)[0] = 0.5f;
+  p.channel(kDv)[0] = 0.2f;
+  constexpr int kRays = 1024;
+  const auto shoot = [&](double base) {
+    from.clear();
+    body = [base](sl::Surface& s) { s.Ci = Color(occlusion(s.P, s.N, kRays, "samplebase", base)); };
+    shade(p);
+    ASSERT_EQ(from.size(), static_cast<size_t>(kRays));
+  };
+  shoot(0);
+  for (const vec3& P : from) EXPECT_EQ(P, vec3(0, 0, 5));
+  shoot(0.5);
+  vec3 mean(0), square(0);
+  for (const vec3& P : from) {
+    mean += P / static_cast<float>(kRays);
+    square += (P - vec3(0, 0, 5)) * (P - vec3(0, 0, 5)) / static_cast<float>(kRays);
+  }
+  // Half of the edges 1 and 0.6 of the micropolygon: numbers that are even over a width w have the variance w^2 / 12.
+  expectColor(mean, {0, 0, 5}, 1e-3f);
+  expectColor(square, {0.25f / 12, 0.09f / 12, 0}, 1e-4f);
+}
+
 TEST_F(BatchRays, GatherBeyondTheLimitOfDepthMeetsNothingAndTracesNothing) {
   services.met = [](const vec3&, const vec3&) { return 3.0f; };
   services.deep = true;

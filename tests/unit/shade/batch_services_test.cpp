@@ -206,7 +206,12 @@ TEST_F(BatchServices, AttributesAreToldAsTheSceneHasThem) {
                            {"trace:bias", {0.125f}},
                            {"visibility:camera", {1}},
                            {"visibility:diffuse", {0}}};
-  asked(2, [&](sl::Surface&) { expectNumbers(TM_OF_ATTRIBUTES, numbers); });
+  asked(2, [&](sl::Surface&) {
+    expectNumbers(TM_OF_ATTRIBUTES, numbers);
+    TmValue v;
+    EXPECT_TRUE(askFor(TM_OF_ATTRIBUTES, -1, "Ri:Color", TM_COLOR, TM_COLOR, v));
+    EXPECT_EQ(v.length, 1) << "three numbers are one colour";
+  });
 }
 
 TEST_F(BatchServices, OptionsAreToldAsTheSceneHasThem) {

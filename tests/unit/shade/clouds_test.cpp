@@ -1,6 +1,7 @@
 // bake3d() and texture3d() between shaders and what keeps the points: spaces, radii, masks, and what is baked once.
 #include "reyes/cloud_services.h"
 #include "reyes/sl.h"
+#include "tests/unit/shade/neighbours.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -184,6 +185,20 @@ void answering(const TmGrid* g) {
              g->call->occlusion(g->host, g, nullptr, P, N, &disks),
              g->call->bake3d(g->host, g, name, nullptr, P, N, &value, 1)};
 }
+/// Looks clouds up where all points find something.
+void copying(const TmGrid* g) {
+  const TmConstVec3 P = rsl::view(g->P), N = rsl::view(g->N);
+  Answer found(g), value(g), E(g), diffused(g);
+  const TmChannel channel{"x", {value.x.data(), nullptr, nullptr}};
+  EXPECT_TRUE(g->call->texture3d(g->host, g, "known.ptc", nullptr, P, N, &channel, 1, found.x.data()));
+  EXPECT_TRUE(g->call->photonMap(g->host, g, "known.ptc", nullptr, P, N, E.array()));
+  EXPECT_TRUE(g->call->subsurface(g->host, g, "known.ptc", nullptr, P, diffused.array()));
+  expectCopies(g, found.x.data(), "found");
+  expectCopies(g, value.x.data(), "value");
+  expectCopies(g, E, "photons");
+  expectCopies(g, diffused, "diffused light");
+}
+const rsl::Shader copyingShader(TM_SURFACE, "copying", "", TM_NEIGHBOURS, copying, {});
 const rsl::Shader answeringShader(TM_SURFACE, "answering", "", 0, answering, {});
 const rsl::Shader distantShader(TM_SURFACE, "distant", "", 0, sl::shade<distant>, {});
 const rsl::Shader listingShader(TM_SURFACE, "listing", "", 0, sl::shade<listing>, {});
@@ -199,9 +214,9 @@ const rsl::Shader findingShader(TM_SURFACE, "finding", "", 0, sl::shade<finding>
 class CloudCalls : public Stage {
  protected:
   CloudCalls() {
-    static const TmShader* const shaders[] = {bakingShader,  neighbourShader, findingShader,
-                                              waxShader,     causticShader,   pointbasedShader,
-                                              listingShader, distantShader,   answeringShader};
+    static const TmShader* const shaders[] = {bakingShader,    neighbourShader,  findingShader, waxShader,
+                                              causticShader,   pointbasedShader, listingShader, distantShader,
+                                              answeringShader, copyingShader};
     static const TmShaderLibrary library = rsl::libraryOf(shaders);
     registry.addLibrary(&library, "test");
   }
@@ -248,13 +263,7 @@ TEST_F(CloudCalls, EachPointIsBakedOnceForTheCameraAlone) {
   gather.kind = RayKind::Diffuse;
   shade(row(), gather);
   EXPECT_TRUE(clouds.baked.empty());
-  ShadePoints wide(0, 0, true);
-  const ShadePoints narrow = row();
-  for (int i = 0; i < narrow.count(); ++i) {
-    wide.add(narrow.key(i));
-    for (int c = 0; c < narrow.channelCount(); ++c) wide.channel(c)[i] = narrow.channel(c)[i];
-  }
-  shade(wide);
+  shade(withSteps(row()));
   EXPECT_EQ(clouds.baked.size(), 2u) << "neighbours are not points of their own";
 }
 
@@ -304,6 +313,12 @@ TEST_F(CloudCalls, ABodyBakesWhatEntersForLaterFrames) {
   system().setClouds(&clouds);
   shade(row());
   EXPECT_EQ(clouds.baked.size(), row().count());
+}
+
+TEST_F(CloudCalls, GiveNeighboursWhatTheirPointFinds) {
+  surface("copying");
+  system().setClouds(&clouds);
+  shade(withSteps(points({vec3(1, 0, 5), vec3(2, 0, 5), vec3(3, 0, 5)})));
 }
 
 TEST_F(CloudCalls, TellWhetherTheyKnowTheirFile) {

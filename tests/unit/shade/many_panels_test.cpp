@@ -69,9 +69,15 @@ class ManyPanels : public Stage {
  protected:
   ManyPanels() {
     scene.options.user["trace:lightcut"] = number("lightcut", 8);
+    hang(1);
+  }
+  /// Makes panels that have so many samples, in place of those before.
+  void hang(float samples) {
+    scene.lights.clear();
     for (int k = 0; k < kPanels; ++k)
       light("arealight",
-            {number("samples", 1), number("intensity", 0.2f + unitFloat(hashCombine(static_cast<uint32_t>(k), 3u)))},
+            {number("samples", samples),
+             number("intensity", 0.2f + unitFloat(hashCombine(static_cast<uint32_t>(k), 3u)))},
             true)
           .castsShadows = true;
   }
@@ -115,6 +121,17 @@ TEST_F(ManyPanels, BringTheirLightThoughEachPointDrawsAFew) {
   EXPECT_NEAR(mean(true, 100).x / irradiance(), 1, 0.02);
   EXPECT_EQ(panels.shadowRays - before, 100 * kPanels);
   EXPECT_EQ(panels.misled, 0) << "shadow rays end before the geometry of the lamp";
+}
+
+TEST_F(ManyPanels, ThatAPointDrawsHaveTwoSamplesOnAverageAtMost) {
+  surface("matte", {number("Ka", 0), number("Kd", 1)});
+  for (const int samples : {1, 2, 16}) {
+    hang(static_cast<float>(samples));
+    panels.shadowRays = 0;
+    mean(false, 100);
+    EXPECT_LE(panels.shadowRays, 100 * 8 * std::min(samples, 2)) << samples;
+    EXPECT_GT(panels.shadowRays, 100 * 8 * std::min(samples, 2) / 2) << samples;
+  }
 }
 
 TEST_F(ManyPanels, ShineInHighlightsOfAnyWidthAsAllOfThemDo) {

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "reyes/shader.h"
+#include "tests/unit/shade/neighbours.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -11,30 +12,7 @@ std::function<void(const TmGrid*)> ask;
 void asking(const TmGrid* g) { ask(g); }
 const rsl::Shader askingShader(TM_SURFACE, "asking", "", TM_TRACES | TM_NEIGHBOURS, asking, {});
 
-/// An array for each component of an answer. No service answers what it holds at first.
-struct Answer {
-  static constexpr float kUnset = -42;
-  explicit Answer(const TmGrid* g) : x(static_cast<size_t>(g->padded), kUnset), y(x), z(x) {}
-  TmVec3 array() { return {x.data(), y.data(), z.data()}; }
-  std::vector<float> x, y, z;
-};
-
 constexpr int kPoints = 3;
-
-template <class T>
-void expectCopies(const TmGrid* g, const T* answer, const char* what) {
-  ASSERT_EQ(g->count, 5 * kPoints);
-  for (int i = 0; i < g->count; ++i) {
-    EXPECT_NE(answer[i], static_cast<T>(Answer::kUnset)) << what << " at " << i;
-    EXPECT_EQ(answer[i], answer[i % kPoints]) << what << " at " << i;
-  }
-}
-void expectCopies(const TmGrid* g, TmConstVec3 answer, const char* what) {
-  for (const float* component : {answer.x, answer.y, answer.z}) expectCopies(g, component, what);
-}
-void expectCopies(const TmGrid* g, const Answer& answer, const char* what) {
-  for (const std::vector<float>& component : {answer.x, answer.y, answer.z}) expectCopies(g, component.data(), what);
-}
 
 class Neighbours : public Stage {
  protected:
@@ -58,13 +36,7 @@ class Neighbours : public Stage {
       ++calls;
       what(g);
     };
-    const ShadePoints narrow = points({vec3(0, 0, 5), vec3(1, 0, 5), vec3(2, 0, 5)});
-    ShadePoints wide(0, 0, true);
-    for (int i = 0; i < narrow.count(); ++i) {
-      wide.add(narrow.key(i));
-      for (int c = 0; c < narrow.channelCount(); ++c) wide.channel(c)[i] = narrow.channel(c)[i];
-    }
-    shade(wide);
+    shade(withSteps(points({vec3(0, 0, 5), vec3(1, 0, 5), vec3(2, 0, 5)})));
     EXPECT_EQ(calls, 1);
   }
 };
@@ -84,6 +56,27 @@ TEST_F(Neighbours, GetTheSumsOfLightOfTheirPoint) {
     expectCopies(g, bounced, "indirect light");
     for (const Answer* direction : {&red, &green, &blue}) expectCopies(g, *direction, "its direction");
     EXPECT_NE(matte.x[0], matte.x[1]) << "points differ, so that a copy of another one is noticed";
+  });
+}
+
+TEST_F(Neighbours, AreNoReasonToGatherAgainButEveryNormalOfAPointIs) {
+  shadeWide([this](const TmGrid* g) {
+    Answer E(g);
+    const auto gathersFor = [&](const Answer& N) {
+      const int before = services.gathers;
+      g->call->indirectDiffuse(g->host, g, {N.x.data(), N.y.data(), N.z.data()}, E.array(), nullptr);
+      return services.gathers - before;
+    };
+    Answer N(g);
+    EXPECT_EQ(gathersFor(N), kPoints);
+    EXPECT_EQ(gathersFor(N), 0);
+    for (std::vector<float>* component : {&N.x, &N.y, &N.z})
+      for (size_t i = 0; i < kPoints; ++i) {
+        (*component)[i] = 1;
+        EXPECT_EQ(gathersFor(N), kPoints) << i;
+      }
+    for (size_t i = kPoints; i < N.x.size(); ++i) N.x[i] = 1;
+    EXPECT_EQ(gathersFor(N), 0);
   });
 }
 
