@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "reyes/base/near_names.h"
 #include "reyes/rib/handlers.h"
@@ -94,6 +95,8 @@ bool Parser::readArguments(const Signature& signature) {
       return false;
     }
   }
+  const bool hasHandle = signature.arguments == "sh" && signature.parameterList;
+  if (hasHandle && (at(Kind::Open) || lexer_.atNumbers()) && !readParameterInPlaceOfHandle()) return false;
   const bool hasCategory = request_.name == "Option" || request_.name == "Attribute";
   if (signature.parameterList && !readParameters(hasCategory ? request_.args[0].strings[0] : "")) return false;
   if (!at(Kind::Name) && !at(Kind::End) && !at(Kind::Junk)) return fail("the next request");
@@ -207,9 +210,22 @@ bool Parser::readParameters(const std::string& category) {
   return true;
 }
 
+bool Parser::readParameterInPlaceOfHandle() {
+  const std::string token = std::exchange(request_.args.back().strings[0], request_.where.text());
+  warn("rib-no-handle", request_.where,
+       fmt::format("{}: there is no handle before the parameter \"{}\"; the place of the request is its handle",
+                   request_.name, token.substr(0, 80)));
+  return readValuesOf(token, request_.where, "");
+}
+
 bool Parser::readParameter(const std::string& category) {
   const std::string token = lexer_.peek().text;
   const SourceLoc where = here();
+  lexer_.advance();
+  return readValuesOf(token, where, category);
+}
+
+bool Parser::readValuesOf(const std::string& token, const SourceLoc& where, const std::string& category) {
   Param param;
   const auto declaration = dictionary_.find(token, category, param.name);
   const bool valuesTell = valuesTellTypeOf(token), declared = declaration && !(declaration->standard && valuesTell);
@@ -218,7 +234,6 @@ bool Parser::readParameter(const std::string& category) {
     param.type = declaration->reference ? ValueType::String : declaration->type;
     param.arrayLength = declaration->arrayLength;
   }
-  lexer_.advance();
   if (!readValues(param)) return fail(fmt::format("a value of \"{}\"", token));
   if (!declaration && !valuesTell) {
     warn("rib-undeclared", where,

@@ -44,6 +44,9 @@ class Parser {
   bool readArray(RibArg::Kind kind);
   bool readParameters(const std::string& category);
   bool readParameter(const std::string& category);
+  bool readValuesOf(const std::string& token, const SourceLoc& where, const std::string& category);
+  /// Reads a light that has no handle: what was read as one is the name of its first parameter.
+  bool readParameterInPlaceOfHandle();
   /// Tells whether the values show the type of a token whose name is not declared.
   bool valuesTellTypeOf(const std::string& token) const;
   static Param typedByValues(const std::string& name, Param values);

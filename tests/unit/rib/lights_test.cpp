@@ -23,6 +23,24 @@ TEST(Lights, OutsideTheWorldKeepTheirPlace) {
   EXPECT_EQ(r.scene().lights[1]->index, 1);
 }
 
+TEST(Lights, WithoutAHandleHaveTheirPlaceForOne) {
+  const Reading r(
+      inWorld("\nLightSource \"pointlight\" \"intensity\" [2] \"from\" [1 2 3]\n"
+              "LightSource \"ambientlight\" \"intensity\" .5\n"
+              "AreaLightSource \"arealight\" \"intensity\" 3\n" +
+              kSphere));
+  EXPECT_EQ(r.message("rib-no-handle").count, 2);
+  EXPECT_EQ(r.codes(), "rib-no-handle@3 rib-no-handle@5 ");
+  ASSERT_EQ(r.scene().lights.size(), 3u);
+  const auto& lights = r.scene().lights;
+  EXPECT_EQ(findParam(lights[0]->shader.params, "intensity")->number(0), 2);
+  EXPECT_EQ(findParam(lights[0]->shader.params, "from")->floats, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(findParam(lights[1]->shader.params, "intensity")->number(0), .5f);
+  EXPECT_TRUE(lights[2]->area);
+  EXPECT_NE(lights[0]->handle, lights[1]->handle);
+  EXPECT_EQ(r.attributes(0).lights, (LightList{0, 1, 2}));
+}
+
 TEST(Lights, OfGeometryShineOnWhatFollowsThem) {
   const Reading r(inWorld(lamps(3) + kSphere + "Illuminate \"1\" 0 " + kSphere + "Illuminate \"1\" 1 " + kSphere +
                           "Illuminate \"2\" 1 " + kSphere));
