@@ -112,7 +112,11 @@ bool takeClassAndType(std::vector<std::string_view>& list, Declaration& d, bool&
   if (d.reference) list.erase(list.begin());
   const bool classed = take(d.storage);
   typed = take(d.type);
-  if (d.reference && !typed && !list.empty() && list[0] == "struct") {  // a manifold of PRMan's patterns
+  // What PRMan's nodes refer to by handle: manifolds of patterns ("struct"), and other nodes of a kind.
+  static constexpr std::string_view kNodes[] = {"struct",      "bxdf",         "displacement", "displayfilter",
+                                                "lightfilter", "samplefilter", "integrator",   "projection"};
+  if (d.reference && !typed && list.size() > 1 &&
+      std::find(std::begin(kNodes), std::end(kNodes), list[0]) != std::end(kNodes)) {
     d.type = ValueType::String;
     typed = true;
     list.erase(list.begin());

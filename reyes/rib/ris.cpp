@@ -38,7 +38,8 @@ Translation light(const Request& r, RisState& state) {
 
 Translation bxdf(const Request& r, RisState& state) {
   if (!state.bxdf) state.bxdf = r;
-  return risBxdf(r, state.patterns);
+  state.bxdfs[r.args[1].strings[0]] = r;
+  return risBxdf(r, state);
 }
 
 Translation pattern(const Request& r, RisState& state) {

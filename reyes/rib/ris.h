@@ -19,12 +19,12 @@ struct Translation {
   std::vector<Note> notes;
 };
 
-/// Pattern requests by handle: the parameters of others refer to their outputs.
-using Patterns = std::map<std::string, Request>;
+/// Requests by handle: the parameters of others refer to them.
+using Nodes = std::map<std::string, Request>;
 
 /// What requests of the RIS era leave for later ones.
 struct RisState {
-  Patterns patterns;
+  Nodes patterns, bxdfs;
   std::optional<Request> areaLight;  ///< The latest AreaLightSource of PRMan 19 and 20; its shape may follow.
   std::optional<Request> bxdf;       ///< The first Bxdf.
   bool hasLight = false;             ///< True after a light, also one that is not available.

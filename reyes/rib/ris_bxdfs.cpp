@@ -18,6 +18,7 @@ struct Bxdf {
   bool metal = false;  ///< True if it is always a metal.
 };
 constexpr Bxdf kMatte{"diffuseColor", 0.5f, nullptr, nullptr, nullptr, false, false};
+constexpr Bxdf kLama{"color", 0.5f, nullptr, nullptr, nullptr, false, false};
 constexpr Bxdf kBlack{"no color", 0, nullptr, nullptr, nullptr, false, true};
 
 const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
@@ -34,7 +35,10 @@ const std::unordered_map<std::string_view, Bxdf>& bxdfs() {
       {"PxrMarschnerHair", kMatte},
       {"PxrBlack", kBlack},
       {"PxrLightEmission", kBlack},  // the light does the rest
-      {"LamaDiffuse", kMatte},
+      {"LamaDiffuse", kLama},
+      {"LamaSSS", kLama},
+      {"LamaTranslucent", kLama},
+      {"LamaEmission", {"color", 1, nullptr, nullptr, nullptr, false, true}},
       {"LamaConductor", {"reflectivity", 1, "roughness", nullptr, nullptr, true, false, true}}};
   return table;
 }
@@ -52,7 +56,7 @@ std::vector<float> mean(const std::vector<float>& a, const std::vector<float>& b
 }
 
 /// Follows a reference "handle:output".
-Source follow(const Request& r, const char* name, const Patterns& patterns) {
+Source follow(const Request& r, const char* name, const Nodes& patterns) {
   const std::string reference = wordOf(r.params, name);
   const auto it = patterns.find(reference.substr(0, reference.find(':')));
   if (it == patterns.end()) {
@@ -78,7 +82,7 @@ Source follow(const Request& r, const char* name, const Patterns& patterns) {
   return {{}, "", false, {note(pattern, "is not available: what is connected to it keeps its default")}};
 }
 
-Source baseColor(const Request& r, const Bxdf& b, const Patterns& patterns) {
+Source baseColor(const Request& r, const Bxdf& b, const Nodes& patterns) {
   const char* name = findParam(r.params, b.color) ? b.color : "diffuseColor";
   if (isReference(r, name)) {
     Source source = follow(r, name, patterns);
@@ -89,7 +93,7 @@ Source baseColor(const Request& r, const Bxdf& b, const Patterns& patterns) {
 }
 
 /// References to numbers keep the default, which is noted; those to colours have been followed.
-void noteReferences(const Request& r, const Bxdf& b, const Patterns& patterns, std::vector<Note>& notes) {
+void noteReferences(const Request& r, const Bxdf& b, const Nodes& patterns, std::vector<Note>& notes) {
   for (const auto& [name, type] : r.references)
     if (name != b.color && name != "diffuseColor")
       for (Note& n : follow(r, name.c_str(), patterns).notes)
@@ -112,8 +116,8 @@ const char* indexOf(const Request& r) {
 
 Translation glass(const Request& r, const char* index) {
   ParamList params{param("eta", ValueType::Float, {number(r, index, 1.5f)})};
-  if (findParam(r.params, "refractionColor"))
-    params.push_back(param("transmitcolor", ValueType::Color, color(r, "refractionColor", 1)));
+  for (const char* tint : {"refractionColor", "transmissionTint"})
+    if (findParam(r.params, tint)) params.push_back(param("transmitcolor", ValueType::Color, color(r, tint, 1)));
   return {Script(r).say("Surface", {string("glass")}, std::move(params)).list(), {standsIn(r, "glass")}};
 }
 
@@ -156,9 +160,31 @@ void addDisney(const Request& r, bool metal, ParamList& params) {
   if (metal || number(r, "clearcoat", 0) > 0) add("reflections", kReflections);
 }
 
-}  // namespace
+/// Returns the parameter of a material made of others that names the one that is most of it; null for other materials.
+const char* mainPart(const std::string& bxdf) {
+  static const std::unordered_map<std::string_view, const char*> table = {{"LamaSurface", "materialFront"},
+                                                                          {"LamaLayer", "materialBase"},
+                                                                          {"LamaMix", "material1"},
+                                                                          {"LamaAdd", "material1"}};
+  const auto it = table.find(bxdf);
+  return it == table.end() ? nullptr : it->second;
+}
 
-Translation risBxdf(const Request& r, const Patterns& patterns) {
+/// Follows a material to the simple one that is most of it. Returns the material itself if its parts are missing, or
+/// refer to each other without end.
+const Request& simpleBxdf(const Request& r, const Nodes& bxdfs) {
+  const Request* simple = &r;
+  for (size_t steps = 0; steps <= bxdfs.size(); ++steps) {
+    const char* part = mainPart(simple->args[0].strings[0]);
+    if (!part) return *simple;
+    const auto it = bxdfs.find(wordOf(simple->params, part));
+    if (it == bxdfs.end()) return r;
+    simple = &it->second;
+  }
+  return r;
+}
+
+Translation simpleTranslation(const Request& r, const Nodes& patterns) {
   const std::string& name = r.args[0].strings[0];
   if (const char* index = indexOf(r)) return glass(r, index);
   const auto it = bxdfs().find(name);
@@ -187,6 +213,17 @@ Translation risBxdf(const Request& r, const Patterns& patterns) {
   notes.insert(notes.end(), base.notes.begin(), base.notes.end());
   noteReferences(r, b, patterns, notes);
   return {script.list(), std::move(notes)};
+}
+
+}  // namespace
+
+Translation risBxdf(const Request& r, const RisState& state) {
+  const Request& simple = simpleBxdf(r, state.bxdfs);
+  Translation out = simpleTranslation(simple, state.patterns);
+  if (&simple != &r)
+    out.notes.push_back(standsIn(
+        r, fmt::format("{} \"{}\", of which it consists", simple.args[0].strings[0], simple.args[1].strings[0])));
+  return out;
 }
 
 }  // namespace tomales::rib

@@ -47,7 +47,7 @@ class Script {
 Note note(const Request& request, const std::string& what, Severity severity = Severity::Warning);
 Note standsIn(const Request& request, const std::string& substitute, Severity severity = Severity::Warning);
 
-Translation risBxdf(const Request& request, const Patterns& patterns);
+Translation risBxdf(const Request& request, const RisState& state);
 Translation risLight(const Request& request);
 /// Translate AreaLightSource of PRMan 19 and 20, and Geometry "envsphere", which makes one a sky.
 Translation stdLight(const Request& request, RisState& state);

@@ -31,7 +31,10 @@ const Row kRows[] = {{"PxrDiffuse", "diffuseColor", .5f, "matte", "", false},
                      {"PxrMarschnerHair", "diffuseColor", .5f, "matte", "", false},
                      {"PxrBlack", "diffuseColor", 0, "constant", "", false},
                      {"PxrLightEmission", "diffuseColor", 0, "constant", "", false},
-                     {"LamaDiffuse", "diffuseColor", .5f, "matte", "", false},
+                     {"LamaDiffuse", "color", .5f, "matte", "", false},
+                     {"LamaSSS", "color", .5f, "matte", "", false},
+                     {"LamaTranslucent", "color", .5f, "matte", "", false},
+                     {"LamaEmission", "color", 1, "constant", "", false},
                      {"LamaConductor", "reflectivity", 1, "disney", "roughness", true},
                      {"PxrFancyBxdf", "diffuseColor", .5f, "matte", "", false}};
 
@@ -109,6 +112,48 @@ TEST(RisMaterials, ThatRefractHaveTheIndexOfTheirRow) {
     if (!gain.empty()) {
       EXPECT_EQ(withBxdf(name, "\"float refractionGain\" .5").attributes(0).surface->name, "disney") << name;
     }
+  }
+}
+
+TEST(RisMaterials, ThatConsistOfOthersAreTheOneThatIsMostOfThem) {
+  const std::string red = "Bxdf \"LamaDiffuse\" \"red\" \"color color\" [1 0 0] ",
+                    metal = "Bxdf \"LamaConductor\" \"metal\" ";
+  const auto whole = [&](const std::string& name, const std::string& parts) {
+    return Reading(inWorld(red + metal + "Bxdf \"" + name + "\" \"whole\" " + parts + kSphere));
+  };
+  const auto part = [](const std::string& name, const std::string& handle) {
+    return "\"reference bxdf " + name + "\" [\"" + handle + "\"] ";
+  };
+  for (const Reading& r : {whole("LamaSurface", part("materialBack", "metal") + part("materialFront", "red")),
+                           whole("LamaLayer", part("materialTop", "metal") + part("materialBase", "red")),
+                           whole("LamaMix", part("material1", "red") + part("material2", "metal")),
+                           whole("LamaAdd", part("material1", "red") + part("material2", "metal"))}) {
+    EXPECT_EQ(r.attributes(0).surface->name, "matte");
+    EXPECT_EQ(r.attributes(0).color, vec3(1, 0, 0));
+    EXPECT_EQ(r.log.worst(), Severity::Warning);
+  }
+  const Reading nested(inWorld(red + "Bxdf \"LamaLayer\" \"inner\" " + part("materialBase", "red") +
+                               "Bxdf \"LamaSurface\" \"outer\" " + part("materialFront", "inner") + kSphere));
+  EXPECT_EQ(nested.attributes(0).color, vec3(1, 0, 0));
+}
+
+TEST(RisMaterials, WithoutThePartsThatTheyConsistOfAreMissing) {
+  const std::string endless =
+      "Bxdf \"LamaMix\" \"a\" \"reference bxdf material1\" \"b\" Bxdf \"LamaMix\" \"b\" \"reference bxdf material1\" "
+      "\"a\" ";
+  for (const std::string& bxdfs :
+       {std::string("Bxdf \"LamaSurface\" \"s\" "),
+        std::string("Bxdf \"LamaSurface\" \"s\" \"reference bxdf materialFront\" \"no\" "), endless}) {
+    const Reading r(inWorld(bxdfs + kSphere));
+    EXPECT_EQ(r.attributes(0).surface->name, "matte");
+    EXPECT_EQ(r.log.worst(), Severity::Missing);
+  }
+}
+
+TEST(RisMaterials, TintWhatTheyTransmit) {
+  for (const auto& [name, tint] : {std::pair("PxrGlass", "refractionColor"), {"LamaDielectric", "transmissionTint"}}) {
+    const Reading r = withBxdf(name, "\"color " + std::string(tint) + "\" [.5 1 .5]");
+    EXPECT_EQ(findParam(r.attributes(0).surface->params, "transmitcolor")->floats, (std::vector<float>{.5f, 1, .5f}));
   }
 }
 
