@@ -98,10 +98,10 @@ bool parseRibText(const std::string& text, const std::string& name, RiSink& sink
 
 std::set<std::string> makeSources(const std::vector<std::string>& files) {
   MakeSources sources;
-  Log quiet(Log::Verbosity::Quiet);
+  Log silent(Log::Verbosity::Silent);  // faults of the scene are reported when it is read
   std::error_code none;
   for (const std::string& file : files)
-    if (std::filesystem::is_regular_file(file, none) && mayMakeMaps(file)) parseRib({file}, sources, quiet);
+    if (std::filesystem::is_regular_file(file, none) && mayMakeMaps(file)) parseRib({file}, sources, silent);
   return sources.names;
 }
 

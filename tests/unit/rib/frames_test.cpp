@@ -73,6 +73,14 @@ TEST(MakeSources, AreThePicturesThatMakeRequestsReadButNoShadows) {
       7u);
 }
 
+TEST(MakeSources, AreFoundWithoutMessagesWhichTheReaderGives) {
+  std::ofstream(test::temporary("faulty.rib"))
+      << "MakeTexture \"b.tif\" \"b.tx\" \"black\" \"black\" \"box\" 1 1\nSphere 1\nNoSuchRequest 1\n";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(makeSources({test::temporary("faulty.rib")}), (std::set<std::string>{"b.tif"}));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(PlainParse, TellsOfFilesThatCannotBeReadOrHoldNothing) {
   struct : RiSink {
     void request(const Request& r) override { names += r.name + " "; }
