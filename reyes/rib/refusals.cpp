@@ -44,6 +44,8 @@ const std::unordered_map<std::string_view, std::string>& reasons() {
       {"EditAttributeEnd", "there is no EditAttributeBegin"},
       {"EditWorldEnd", "there is no EditWorldBegin"},
       {"PixelVariance", kAdaptive},
+      {"VolumePixelSamples", kVolumes},
+      {"PixelSampleImager", "an Imager runs for each pixel"},
       {"GeometricRepresentation", "geometry is always drawn as surfaces"},
       {"MakeTexture3D", "MakeBrickMap makes brick maps"},
       {"MakeOcclusion", "MakeShadow makes one map of one picture"},

@@ -64,6 +64,8 @@ constexpr Signature kTable[] = {
     {"PixelSamples", "2", kNone, kWorks},
     {"PixelFilter", "s2", kNone, kWorks},
     {"PixelVariance", "f", kNone, kIgnored},
+    {"VolumePixelSamples", "2", kNone, kIgnored},
+    {"PixelSampleImager", "s", kParams, kIgnored},
     {"Exposure", "2", kNone, kWorks},
     {"Imager", "s", kParams, kWorks},
     {"Quantize", "s4", kNone, kWorks},

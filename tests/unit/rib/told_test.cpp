@@ -45,6 +45,12 @@ TEST(Told, MotionsOfWhatDoesNotMoveAndThoseWithoutEnd) {
   EXPECT_TRUE(has(open.message("rib-unbalanced").message, "MotionEnd is missing")) << open.codes();
 }
 
+TEST(Told, RequestsOfPRManThatHaveNoEffectHere) {
+  const Reading r("VolumePixelSamples 2 2 PixelSampleImager \"vignette\" \"float amount\" 1 " + inWorld(kSphere));
+  EXPECT_EQ(r.codes(), "rib-unsupported@1 rib-unsupported@1 ");
+  EXPECT_EQ(r.log.worst(), Severity::Warning);
+}
+
 TEST(Told, AnErrorHandlerThatDoesNotPrint) {
   EXPECT_EQ(Reading("ErrorHandler \"print\"" + inWorld("")).codes(), "");
   EXPECT_EQ(Reading("ErrorHandler \"abort\" ErrorHandler \"ignore\"" + inWorld("")).codes(), "rib-unsupported@1 ");
