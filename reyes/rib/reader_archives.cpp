@@ -31,6 +31,14 @@ std::string folderOf(const std::string& path) {
   return fs::path(zip.empty() ? path : zip).parent_path().string();
 }
 
+/// Guesses where a file lies. A member of a zip file keeps its name within that.
+std::vector<std::string> guesses(const std::string& name, const std::vector<std::string>& folders) {
+  const size_t mark = std::min(name.find('!'), name.size());
+  std::vector<std::string> out = pathSuffixes(name.substr(0, mark), folders);
+  for (std::string& file : out) file += name.substr(mark);
+  return out;
+}
+
 }  // namespace
 
 void Reader::record(const Request& r) {
@@ -78,7 +86,7 @@ void Reader::replay(const Request& r, const std::string& name, const Requests& a
 void Reader::readArchiveFile(const Request& r, const std::string& name) {
   std::string path = findFile(name, "archive");
   const std::vector<std::string> ends =
-      path.empty() ? pathSuffixes(name, foldersFor("archive")) : std::vector<std::string>();
+      path.empty() ? guesses(name, foldersFor("archive")) : std::vector<std::string>();
   for (size_t i = 0; i < ends.size() && path.empty(); ++i)
     if (path = findFile(ends[i], "archive"); !path.empty())
       report(Severity::Warning, "rib-elsewhere", r,

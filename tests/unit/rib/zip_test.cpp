@@ -1,5 +1,6 @@
 // Archives that are members of zip files.
 
+#include <filesystem>
 #include <fstream>
 
 #include "reyes/rib/stream.h"
@@ -57,6 +58,18 @@ TEST(ZipMember, IsReadAsAnArchiveStoredOrDeflated) {
     EXPECT_EQ(r.scene().objects.size(), 2u) << member;
     EXPECT_TRUE(r.log.entries().empty()) << r.codes();
   }
+}
+
+TEST(ZipMember, IsFoundBelowAFolderAboveTheReadingFile) {
+  // Exporters name files relative to the folder of a project, and write scenes into folders within that.
+  const std::string project = testing::TempDir() + "tomales_project/";
+  std::filesystem::create_directories(project + "rib/0001");
+  std::filesystem::create_directories(project + "rib/job");
+  std::filesystem::copy_file(written(zipOf(kBalls)), project + "rib/job/models.zip",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Reading r(inWorld("ReadArchive \"rib/job/models.zip!in/packed.rib\""), {project + "rib/0001"});
+  EXPECT_EQ(r.scene().objects.size(), 2u);
+  EXPECT_EQ(r.codes(), "rib-elsewhere@2 ");
 }
 
 TEST(ZipMember, IsMissingWhereThereIsNone) {
