@@ -135,6 +135,16 @@ TEST_F(Imager, BackgroundFillsWhatAlphaLeavesUnderEitherName) {
   }
 }
 
+TEST_F(Imager, BackgroundLeavesAlphaAsItIsWithoutAnAlphaOfItsOwn) {
+  for (const auto& [own, alpha] : {std::pair{0.0f, 0.25f}, {0.5f, 0.625f}, {1.0f, 1.0f}}) {
+    shading.reset();
+    scene.objects.clear();
+    const ShadedPixels p = run("background", {color("color", {0.1f, 0.2f, 0.4f}), number("alpha", own)});
+    expectColor(p.colors.color(0), vec3(0.5f) + 0.75f * vec3(0.1f, 0.2f, 0.4f));
+    EXPECT_EQ(p.alpha[0], alpha);
+  }
+}
+
 TEST_F(Imager, ClampToAlphaLimitsColour) {
   const ShadedPixels p = run("clamptoalpha");
   expectColor(p.colors.color(0), vec3(0.25f), 0);
