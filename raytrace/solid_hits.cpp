@@ -37,7 +37,8 @@ void SolidHits::resolve(std::span<const PolygonHit> hits, const Ray& ray, uint32
   crossings.clear();
   for (const PolygonHit& h : hits) {
     const float rounding = kRounding * (std::abs(h.t) + glm::length(ray.origin));
-    crossings.push_back({objectOf(h).solidBlock, h.leaving, h.t, rounding, rounding});
+    const Object& o = objectOf(h);
+    crossings.push_back({o.solidBlock, h.leaving != o.turnedInSolid, h.t, rounding, rounding});
   }
   SolidWalk(scene_.solids[static_cast<size_t>(objectOf(hits.front()).solid)]).boundaries(crossings, boundaries);
   for (const SolidBoundary& b : boundaries) {

@@ -32,8 +32,10 @@ struct Object {
   Motion worldFromObject;
   std::shared_ptr<const Attributes> attributes;
   SourceLoc where;
-  int solid = -1;         ///< Index in Scene::solids of the solid that it is a part of; -1 if there is none.
-  int solidBlock = -1;    ///< Primitive block of that solid.
+  int solid = -1;       ///< Index in Scene::solids of the solid that it is a part of; -1 if there is none.
+  int solidBlock = -1;  ///< Primitive block of that solid.
+  /// In a primitive block: its normals point to the other side of the surface than those of the block's first object.
+  bool turnedInSolid = false;
   uint64_t contents = 0;  ///< Checksum of the request that describes its shapes, wherever it is written.
 
   // Filled by Scene::freeze().

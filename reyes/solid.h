@@ -42,7 +42,7 @@ class Solid {
 /// A crossing of a line with the surface of a primitive.
 struct SolidCrossing {
   int block;     ///< A primitive block of the solid.
-  bool leaving;  ///< The line goes to the side of the surface's own normal.
+  bool leaving;  ///< The line goes to the side that the normals of the primitive point to, all to the same.
   float t;       ///< Any parameter that grows along the line.
   /// Distance in t within which the same point of the surface may be found again, where two pieces of it overlap.
   float reach;

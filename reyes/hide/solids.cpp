@@ -69,7 +69,7 @@ class SolidResolver {
         seenCell(entry, camera_, static_cast<int>(c.cell - entry.firstCell), samplePoint(samples_, c.lane));
     const vec2 ad(s.d - s.a), bc(s.c - s.b);
     // Raster y runs down: a cell that turns clockwise from u to v as seen has dPdu x dPdv towards the eye.
-    const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != o.flipsNormal;
+    const bool leaving = (ad.x * bc.y - ad.y * bc.x < 0) != (o.flipsNormal != o.turnedInSolid);
     const float extent = std::max({s.a.z, s.b.z, s.c.z, s.d.z}) - std::min({s.a.z, s.b.z, s.c.z, s.d.z});
     const float rounding = kSideRounding * std::abs(c.d);
     return {o.solidBlock, leaving, c.d, extent + rounding, kSlackOfCell * extent + rounding};

@@ -23,8 +23,8 @@ std::optional<SolidOperation> operationOf(const std::string& name) {
 Solid& openSolid(GraphicsState& s) { return s.world->solids[static_cast<size_t>(s.scope.solid)]; }
 
 /// The objects of the primitive that is open are the last that were made.
-std::span<const Object> objectsOfPrimitive(const GraphicsState& s) {
-  const std::vector<Object>& all = s.world->objects;
+std::span<Object> objectsOfPrimitive(GraphicsState& s) {
+  std::vector<Object>& all = s.world->objects;
   size_t first = all.size();
   while (first > 0 && all[first - 1].solid == s.scope.solid && all[first - 1].solidBlock == s.scope.solidBlock) --first;
   return {all.data() + first, all.size() - first};
@@ -53,7 +53,9 @@ void beginSolid(GraphicsState& s, const Request& r) {
 
 void endSolid(GraphicsState& s, const Request& r) {
   if (!s.world || s.scope.solid < 0 || openSolid(s).operation(s.scope.solidBlock) != SolidOperation::Primitive) return;
-  if (const Object* open = findOpenEdge(objectsOfPrimitive(s)))
+  const std::span<Object> objects = objectsOfPrimitive(s);
+  findTurned(objects);
+  if (const Object* open = findOpenEdge(objects))
     s.log.report(Severity::Warning, "rib-solid-open", open->where,
                  objectName(*open) + ": the primitive of a solid that ends at " + r.where.text() +
                      " is not closed: it has an edge that nothing joins; where it is seen through, the solid is wrong");

@@ -1,4 +1,4 @@
-// Tests whether several objects together bound a volume.
+// Tests whether several objects together bound a volume, and which way their normals point.
 #pragma once
 #include <span>
 
@@ -10,5 +10,9 @@ namespace tomales::rib {
 /// compares points on the edges at the first motion key, within a hundredth of the size of the whole. Meshes with too
 /// many edges to compare count as closed.
 const Object* findOpenEdge(std::span<const Object> objects);
+
+/// Sets Object::turnedInSolid by the edges along which objects are joined. Where normals agree, a walk around one object
+/// and a walk around the other run against each other along a common edge. It compares edges as findOpenEdge() does.
+void findTurned(std::span<Object> objects);
 
 }  // namespace tomales::rib

@@ -140,6 +140,18 @@ TEST(Solids, OnlyTheWholeHidesWhatIsBehind) {
   }
 }
 
+TEST(Solids, AreWholeAtARimWhereTheNormalOfADiskPointsInwards) {
+  // A line through the rim enters by the wall and leaves by the disk at once. If these two were taken for one, the line
+  // would count as one that begins in the can, and would show the cutter in front of it.
+  const std::string can = primitive("Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360");
+  const std::string cutter = moved("0 0 3", primitive("Cylinder 0.8 -5 0 360 Disk 0 0.8 360 Disk -5 0.8 360"));
+  const DeepFrame f = hideRib(world("Rotate -60 1 0 0 " + solid("difference", can + cutter)));
+  const DeepFrame outward = hideRib(world(
+      "Rotate -60 1 0 0 " +
+      solid("difference", primitive("Cylinder 1 -1 1 360 Disk 1 1 360 ReverseOrientation Disk -1 1 360") + cutter)));
+  EXPECT_EQ(measure(f).volume, measure(outward).volume);
+}
+
 TEST(Solids, InFrontHideThemFromAllTheirParts) {
   const std::string wall = "TransformBegin Translate 0 0 -5 Polygon \"P\" [-2 -2 0 -2 2 0 2 2 0 2 -2 0] TransformEnd ";
   const DeepFrame f = hideRib(world(solid("difference", kUnitBall + moved("0 0 -1", kUnitBall)) + wall));

@@ -57,6 +57,32 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OpenPrimitive,
                                          "Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 0.8 360",
                                          "Polygon \"P\" [0 0 0 1 0 0 1 1 0]", "Points \"P\" [0 0 0]"));
 
+struct Turned {
+  const char* body;
+  std::vector<bool> turned;
+};
+class NormalsOfAPrimitive : public testing::TestWithParam<Turned> {};
+TEST_P(NormalsOfAPrimitive, AreComparedAlongTheEdgesThatJoinItsObjects) {
+  const Reading r(inWorld("SolidBegin \"primitive\" " + std::string(GetParam().body) + " SolidEnd"));
+  std::vector<bool> turned;
+  for (size_t i = 0; i < r.scene().objects.size(); ++i) turned.push_back(r.object(i).turnedInSolid);
+  EXPECT_EQ(turned, GetParam().turned);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, NormalsOfAPrimitive,
+    testing::Values(
+        // The normal of every disk points to its own z, which is out of the cylinder at its top alone.
+        Turned{"Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360", {false, false, true}},
+        Turned{"Disk -1 1 360 Disk 1 1 360 Cylinder 1 -1 1 360", {false, true, true}},
+        Turned{"Cylinder 1 -1 1 360 Disk 1 1 360 ReverseOrientation Disk -1 1 360", {false, false, false}},
+        Turned{"Cylinder 1 -1 1 360 Disk 1 1 360 Scale 1 1 -1 Disk 1 1 360", {false, false, false}},
+        Turned{"Scale 1 1 -1 Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360", {false, false, true}},
+        // A coin, whose two rims lie within the tolerance of each other.
+        Turned{"Cylinder 1 0 0.004 360 Disk 0.004 1 360 Disk 0 1 360", {false, false, true}},
+        // Two shells that nothing joins each have a first object.
+        Turned{"Cone 1 1 360 Disk 0 1 360 Translate 5 0 0 Disk 0 1 360 Cone 1 1 360", {false, true, false, true}},
+        Turned{"Sphere 1 -1 1 360", {false}}));
+
 TEST(Solids, OfWrongUseAreNamedAndMakeSomethingSensible) {
   const Reading r("SolidBegin \"union\" SolidEnd" +
                   inWorld("SolidBegin \"merge\"\nSphere 1 -1 1 360\nSolidBegin \"primitive\"\n"
