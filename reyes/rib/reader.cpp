@@ -172,7 +172,9 @@ Request Reader::substituted(const Request& r) const {
            fmt::format("with the values of variables {}; all of them are left as written", e.what()));
     return r;
   }
-  if (!unknown.empty())
+  // Search paths take variables of the environment in any case, and whoever replaces these reports what is left.
+  const bool isReported = mark_ == '$' && r.name == "Option" && r.args[0].strings[0] == "searchpath";
+  if (!unknown.empty() && !isReported)
     report(Severity::Warning, "rib-variable", r, fmt::format("there is no variable {}; left as written", unknown));
   return out;
 }

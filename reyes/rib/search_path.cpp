@@ -22,7 +22,8 @@ std::string environmentAt(const std::string& text, size_t& at, std::string& unse
   if (!whole) return "$";
   at = braces ? last : last - 1;
   const char* value = std::getenv(name.c_str());
-  if (!value) unset += (unset.empty() ? "" : ", ") + name;
+  const bool isNamed = (", " + unset + ",").find(", " + name + ",") != std::string::npos;
+  if (!value && !isNamed) unset += (unset.empty() ? "" : ", ") + name;
   return value ? value : "";
 }
 

@@ -124,6 +124,15 @@ TEST(Variables, AreSubstitutedInStringsOnceAsked) {
   EXPECT_EQ(r.message("rib-variable").where.line, 3);
 }
 
+TEST(Variables, ThatSearchPathsLackAreNamedOnceInOneMessage) {
+  const std::string path = "Option \"searchpath\" \"string shader\" \"@:${NOWHERE}/a:${NOWHERE}/b:${NOWHERE_ELSE}\"\n";
+  for (const char* substitution : {"", "Option \"ribparse\" \"string varsubst\" \"$\" "}) {
+    const Reading r(substitution + path + inWorld(""));
+    EXPECT_EQ(r.codes(), "rib-variable@1 ");
+    EXPECT_NE(r.message("rib-variable").message.find("has no NOWHERE, NOWHERE_ELSE;"), std::string::npos);
+  }
+}
+
 TEST(Variables, ThatDoubleEndWithAMessage) {
   std::string text = "Option \"ribparse\" \"string varsubst\" \"$\" Option \"user\" \"string a\" \"0123456789\"\n";
   for (int k = 0; k < 60; ++k) text += "Option \"user\" \"string a\" \"${a}${a}\"\n";
