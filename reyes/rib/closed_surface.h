@@ -11,8 +11,9 @@ namespace tomales::rib {
 /// many edges to compare count as closed.
 const Object* findOpenEdge(std::span<const Object> objects);
 
-/// Sets Object::turnedInSolid by the edges along which objects are joined. Where normals agree, a walk around one object
-/// and a walk around the other run against each other along a common edge. It compares edges as findOpenEdge() does.
+/// Sets Object::turnedInSolid by the edges along which objects are joined. Where normals agree, a walk around one
+/// object and a walk around the other run against each other along a common edge. It compares edges as findOpenEdge()
+/// does.
 void findTurned(std::span<Object> objects);
 
 }  // namespace tomales::rib
