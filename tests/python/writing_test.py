@@ -159,6 +159,22 @@ class Streams(unittest.TestCase):
             self.assertTrue(texts[0].endswith(b"WorldBegin\n\tSides 1\nWorldEnd\n"), texts[0])
             self.assertEqual(gzip.decompress(texts[1]), texts[0])
 
+    def test_an_object_needs_no_more_than_write(self):
+        class Sink:
+            def __init__(self):
+                self.bytes = b""
+
+            def write(self, data):
+                self.bytes += data
+
+        for compression, read in (("none", bytes), ("gzip", gzip.decompress)):
+            ri, sink = prman.Ri(), Sink()
+            ri.Option("rib", {"string compression": compression})
+            ri.Begin(sink)
+            ri.Sides(1)
+            ri.End()
+            self.assertTrue(read(sink.bytes).endswith(b"Sides 1\n"), sink.bytes)
+
     def test_contexts_are_streams_side_by_side(self):
         ri, first, second = prman.Ri(), io.BytesIO(), io.BytesIO()
         ri.Begin(first)

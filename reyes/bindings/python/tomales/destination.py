@@ -63,7 +63,7 @@ class File:
     def close(self) -> int:
         if isinstance(self._stream, gzip.GzipFile):
             self._stream.close()
-        else:
+        elif hasattr(self._stream, "flush"):  # an object of the script may have write() alone
             self._stream.flush()
         if self._below:
             self._below.close()
