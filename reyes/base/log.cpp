@@ -34,6 +34,24 @@ std::string beginning(const std::string& message) {
   return end <= kLongest ? message.substr(0, end) : message.substr(0, kLongest) + " ...";
 }
 
+/// Returns the text with its control characters as \x1B, so that no byte of a scene commands the terminal. Tabs and
+/// ends of lines stay. Terminals also obey U+0080 to U+009F, which UTF-8 writes as C2 80 to C2 9F.
+std::string printable(std::string_view text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool afterC2 = i > 0 && text[i - 1] == '\xC2' && c >= 0x80 && c < 0xA0;
+    const bool control = (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F || afterC2;
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    if (afterC2) out.pop_back();
+    if (control)
+      out.append({'\\', 'x', kDigits[c >> 4], kDigits[c & 15]});
+    else
+      out += text[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 Log::Log(Verbosity verbosity) : verbosity_(verbosity) {}
@@ -75,8 +93,8 @@ void Log::printRepeated() const {
     const LogEntry& e = *repeated[i];
     std::string places;
     for (const SourceLoc& p : e.places) places += (places.empty() ? "" : ", ") + p.text();
-    std::fprintf(stderr, "tomales: %d times: %s [%s]: %s%s\n", e.count, beginning(e.message).c_str(), e.code.c_str(),
-                 places.c_str(),
+    std::fprintf(stderr, "tomales: %d times: %s [%s]: %s%s\n", e.count, printable(beginning(e.message)).c_str(),
+                 e.code.c_str(), printable(places).c_str(),
                  static_cast<size_t>(e.count) > e.places.size() && e.places.size() == kMostPlaces ? ", ..." : "");
   }
   if (repeated.size() > kMostRepeated)
@@ -98,8 +116,8 @@ void Log::report(Severity severity, std::string_view code, const SourceLoc& wher
   }
   entries_.push_back({severity, std::string(code), message, where, 1, {where}});
   static constexpr const char* kNames[] = {"info", "note", "warning", "missing", "error", "output error"};
-  const std::string text =
-      where.text() + ": " + kNames[static_cast<int>(severity)] + ": " + message + " [" + entries_.back().code + "]\n";
+  const std::string text = printable(where.text() + ": " + kNames[static_cast<int>(severity)] + ": " + message + " [" +
+                                     entries_.back().code + "]\n");
   // Messages of severity Info are not limited: the user asked for them, and a frame brings few.
   const int line = isWanted(severity) && severity > Severity::Info ? ++lines_[entries_.back().code] : 0;
   if (isWanted(severity) && line <= kMostLinesOfCode) std::fputs(text.c_str(), stderr);

@@ -35,6 +35,15 @@ TEST(Log, OneCauseInManyPlacesIsOneEntryWithACountAndTheFirstPlaces) {
   for (size_t i = 0; i < entry.places.size(); ++i) EXPECT_EQ(entry.places[i].line, static_cast<int>(i) + 1);
 }
 
+TEST(Log, NamesOfASceneCannotCommandTheTerminalOrEndAMessage) {
+  const std::string name("a\x1B[31m\x7F\xC2\x9B\0b\tu\xC3\x9C", 15);
+  const std::string printed = printedBy([&](Log& log) {
+    for (int line = 1; line <= 2; ++line) log.report(Severity::Warning, "code", at(line), '"' + name + '"', "name");
+  });
+  const std::string shown = "\"a\\x1B[31m\\x7F\\x9B\\x00b\tu\xC3\x9C\" [code]";
+  EXPECT_EQ(printed, "a.rib:1: warning: " + shown + "\ntomales: 2 times: " + shown + ": a.rib:1, a.rib:2\n");
+}
+
 TEST(Log, SevenCausesInOnePlaceAreSevenEntries) {
   Log log(Log::Verbosity::Quiet);
   for (int k = 0; k < 7; ++k)
