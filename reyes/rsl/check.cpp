@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <utility>
 
 #include "reyes/rsl/checker.h"
@@ -30,7 +31,15 @@ Checker::Checker(Checked& checked, const File* prelude, const RslFunctions* plug
 void Checker::file(File& file) {
   for (const auto& f : file.functions) scopes_.back().functions.emplace(f->name, f.get());
   for (const auto& f : file.functions) function(*f);
-  for (const auto& s : file.shaders) shader(*s);
+  std::map<std::pair<ShaderKind, std::string_view>, Place> seen;
+  for (const auto& s : file.shaders) {
+    if (const auto [first, fresh] = seen.try_emplace({s->kind, s->name}, s->place); !fresh) {
+      messages_.warning(s->place,
+                        fmt::format("{} \"{}\" is defined again; the first one counts", name(s->kind), s->name));
+      messages_.note(first->second, "it was defined here");
+    }
+    shader(*s);
+  }
   refuseRecursion();
 }
 

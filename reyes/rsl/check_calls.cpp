@@ -32,7 +32,8 @@ std::string signature(const Builtin& b) {
 
 std::string signature(const Function& f) {
   std::string out = name(f.result) + " " + f.name + "(";
-  for (const auto& p : f.parameters) out += (p == f.parameters.front() ? "" : ", ") + name(p->type);
+  for (const auto& p : f.parameters)
+    out += std::string(p == f.parameters.front() ? "" : ", ") + (p->output ? "output " : "") + name(p->type);
   return out + ")";
 }
 
@@ -262,7 +263,12 @@ void Checker::unknownFunction(Expr& e) {
 
 void Checker::noFit(Expr& e, const std::vector<const Function*>& functions) {
   messages_.error(e.place, fmt::format("there is no {}({})", e.text, argumentTypes(e)), e.length);
-  for (const Function* f : functions) messages_.note(f->place, fmt::format("there is {}", signature(*f)));
+  const auto isOfPrelude = [&](const Function* f) {
+    return prelude_ && std::any_of(prelude_->functions.begin(), prelude_->functions.end(),
+                                   [f](const auto& other) { return other.get() == f; });
+  };
+  for (const Function* f : functions)  // places of the prelude are not in the user's files
+    messages_.note(isOfPrelude(f) ? Place{} : f->place, fmt::format("there is {}", signature(*f)));
   std::vector<const Builtin*> rows = builtinsOf(e.text);
   constexpr size_t kMostShown = 4;
   rows.resize(std::min(rows.size(), kMostShown));

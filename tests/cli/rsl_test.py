@@ -426,4 +426,15 @@ errors = process.communicate(timeout=60)[1]
 t.expect(process.returncode == 0 and not errors, f"two frames of one process ({errors[:200]})")
 expect_all("first", GREEN, "the first has the shader as it was")
 expect_all("second", BLUE, "the second has it as it has become")
+
+# Messages name places in the user's files alone.
+t.write("wrong_fresnel.sl", "surface wrong_fresnel() { color a, b; fresnel(I, N, 1.5, a, b); Ci = a; }")
+said = t.run("compile", "wrong_fresnel.sl").stderr
+t.expect("\nnote: there is void fresnel(vector, vector, float, output float, output float)" in said, f"what a built-in function takes has no place in the file ({said})")
+t.write("twice.sl", "surface twice() { Ci = color(0, 1, 0); }\nsurface twice() { Ci = color(1, 0, 0); }\ndisplacement twice() { P += 0; }\n")
+said = t.expect_run("a second shader of one name and kind gets a warning", ["compile", "twice.sl"], 0, 'twice.sl:2:9: warning: surface "twice" is defined again; the first one counts', "twice.sl:1:9: note").stderr
+t.expect(said.count("defined again") == 1, "and one of another kind gets none")
+scene("twice", 'Surface "twice"')
+t.run("twice.rib")
+expect_all("twice", GREEN, "the first of two shaders counts")
 t.finish()

@@ -23,7 +23,7 @@ void match(Run& run, const PreparedInstruction& s) {
 /// Gives a register its text. A text that grows without end, as by `a = concat(a, a)` in a loop, is cut.
 void setText(Run& run, const PreparedInstruction& s, std::string value) {
   if (value.size() > kLongestText) {
-    run.missing(fmt::format("a text would be longer than {} bytes; it is cut", kLongestText));
+    run.missing(fmt::format("makes a text that would be longer than {} bytes; it is cut", kLongestText));
     value.resize(kLongestText);
   }
   run.variableText(s.of->out[0]) = std::move(value);

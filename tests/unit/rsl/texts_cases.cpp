@@ -13,7 +13,7 @@ Cases textCases() {
       {"a text that grows without end is cut",
        "string a = \"x\"; uniform float i; for (i = 0; i < 40; i += 1) a = concat(a, a); x = 1;",
        1,
-       {.message = "a text would be longer than"}},
+       {.message = "makes a text that would be longer than"}},
       {"match of repetitions side by side", "x = match(\"^[a-z]{1,64}_[a-z]{1,64}_[0-9]{1,4}$\", \"wood_oak_3\");", 1},
       {"match of a pattern that repeats too often", "x = match(\"((((a{1,255}){1,255}){1,255}){1,255})\", \"a\");", 0},
       {"match of a repeated group", "x = match(\"^(ab){2,3}[{]$\", \"abab{\");", 1},
