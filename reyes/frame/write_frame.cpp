@@ -18,7 +18,7 @@ constexpr int kBandRows = 64;  // a multiple of the rows of a tile (image.h)
 void warnOfNoise(const PixelNoise& noise, const Options& options, Log& log) {
   constexpr double kUncertain = 0.2;
   const double share = noise.light > 0 ? noise.error / noise.light : 0;
-  if (share <= kUncertain) return;
+  if (!(share > kUncertain) || !std::isfinite(share)) return;  // infinite light has no share
   log.report(Severity::Warning, "pixel-noise", {},
              fmt::format("pixels are uncertain by {:.0f} % in the mean: {} x {} samples are few for what moves, is out "
                          "of focus or thinner than a pixel "

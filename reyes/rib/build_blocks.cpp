@@ -55,6 +55,7 @@ void SceneBuilder::beginMotion(const Request& r) {
   if (increasing(r.args[0].numbers)) return;
   state_.warn(r, "rib-motion", "times must be finite and increase; only the first key is used");
   motion_->begin.args[0].numbers.resize(1, 0.0f);
+  motion_->firstAlone = true;
 }
 
 void SceneBuilder::collectKey(const Request& r) {
@@ -69,10 +70,10 @@ void SceneBuilder::endMotion() {
   const MotionBlock block = std::move(*motion_);
   motion_.reset();
   std::vector<float> times = block.begin.args[0].numbers;
-  if (block.surplus || block.keys.size() != times.size())
+  if (!block.firstAlone && (block.surplus || block.keys.size() != times.size()))
     state_.warn(block.begin, "rib-motion",
-                fmt::format("{} times, but {} requests; those that match are used", times.size(),
-                            block.surplus ? "more" : "fewer"));
+                fmt::format("{} {}, but {} requests; those that match are used", times.size(),
+                            times.size() == 1 ? "time" : "times", block.surplus ? "more" : "fewer"));
   if (block.keys.empty()) return;
   times.resize(block.keys.size());
   const bool moves = block.keys.size() > 1 && std::all_of(block.keys.begin(), block.keys.end(), usableArguments);

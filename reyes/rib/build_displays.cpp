@@ -95,6 +95,8 @@ void displayChannel(GraphicsState& s, const Request& r) {
   } else if (const SurfaceVariable* standard = surfaceVariable(token)) {
     call.name = token;
     call.type = standard->type;
+  } else if (token.find(' ') != std::string::npos) {
+    return s.warn(r, "rib-channel", fmt::format("\"{}\" is no declaration of a channel; ignored", token));
   } else {
     call.name = token;
     s.warn(r, "rib-channel", fmt::format("\"{}\" has no type; taken for a color", token));

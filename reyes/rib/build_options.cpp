@@ -9,6 +9,7 @@ namespace tomales::rib {
 namespace {
 
 constexpr float kLargestImage = 32768;  // Pixels of a side; readers of OpenEXR and TIFF stop about there.
+constexpr float kWidestFilter = 32;     // Pixels; the narrowest filter has one.
 constexpr float kMostSamples = 256;     // Samples along a side of a pixel's lattice.
 
 void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
@@ -147,8 +148,8 @@ void pixelFilter(GraphicsState& s, const Request& r) {
   const std::vector<float>& width = r.args[1].numbers;
   if (!(width[0] > 0 && width[1] > 0)) return rejectOption(s, r, "filter widths must be positive");
   s.globals.options.filter = r.args[0].strings[0];
-  s.globals.options.xFilterWidth = clamped(s, r, width[0], 1e-3f, 64);
-  s.globals.options.yFilterWidth = clamped(s, r, width[1], 1e-3f, 64);
+  s.globals.options.xFilterWidth = clamped(s, r, width[0], 1, kWidestFilter);
+  s.globals.options.yFilterWidth = clamped(s, r, width[1], 1, kWidestFilter);
 }
 
 void exposure(GraphicsState& s, const Request& r) {
@@ -171,7 +172,9 @@ void option(GraphicsState& s, const Request& r) {
 
 float clamped(GraphicsState& s, const Request& r, float value, float least, float most) {
   const float out = std::clamp(value, least, most);
-  if (out != value) s.warn(r, "rib-clamped", fmt::format("{} is out of range, {} is used", value, out));
+  const bool isNamed = (r.name == "Option" || r.name == "Attribute") && !r.params.empty();
+  const std::string name = isNamed ? fmt::format("\"{}\": ", r.args[0].strings[0]) : std::string();
+  if (out != value) s.warn(r, "rib-clamped", fmt::format("{}{} is out of range, {} is used", name, value, out));
   return out;
 }
 

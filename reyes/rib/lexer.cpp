@@ -170,14 +170,18 @@ void Lexer::skipComment() {
 void Lexer::readString() {
   token_.kind = Token::Kind::String;
   stream_.get();
+  bool tooLong = false;
   for (int c = stream_.get(); c != '"'; c = stream_.get()) {
-    if (c == ByteStream::kEnd || token_.text.size() >= kLongestString) return junk("a string without closing quote");
+    if (c == ByteStream::kEnd) return junk("a string without closing quote");
+    tooLong = tooLong || token_.text.size() >= kLongestString;
+    if (tooLong) token_.text.clear();
     if (c == '\n') ++line_;
     if (c == '\\')
       readEscape();
     else
       token_.text += static_cast<char>(c);
   }
+  if (tooLong) junk("a string that is too long");
 }
 
 // Reads the escapes of C strings that RISpec names: \n \r \t \b \f \\ \" \ooo, and a line end, which is skipped.

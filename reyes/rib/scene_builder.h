@@ -51,7 +51,8 @@ class SceneBuilder : public RiSink {
     Request begin;
     std::vector<Request> keys;
     size_t masterRequest;
-    bool surplus = false;  ///< There were more requests than times.
+    bool surplus = false;     ///< There were more requests than times.
+    bool firstAlone = false;  ///< The times do not increase, which has been reported.
   };
   struct ObjectRecording {
     Request begin;

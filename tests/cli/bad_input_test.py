@@ -48,6 +48,22 @@ t.expect_run("a huge displacement bound", ["bound.rib"], 0)
 t.write("samples.rib", WORLD % 'LightSource "indirectlight" 1 "float samples" [1e9]\nLightSource "distantlight" 2\nSphere .1 -.1 .1 360')
 t.expect_run("a thousand million rays", ["samples.rib"], 0, "samples.rib:5", "65536 is used")
 
+# Messages about what was repaired name it.
+t.write("filter.rib", 'PixelFilter "box" 0.5 40\n' + GOOD)
+said = t.expect_run("widths of filters that are not used are reported", ["filter.rib"], 0, "filter.rib:1", "0.5 is out of range, 1 is used", "40 is out of range, 32 is used")
+t.write("grid.rib", 'Option "limits" "gridsize" [0]\n' + GOOD)
+t.expect_run("an option out of range is named", ["grid.rib"], 0, 'grid.rib:1', '"limits": 0 is out of range')
+t.write("times.rib", WORLD % "MotionBegin [1 0]\nTranslate 0 0 0\nTranslate 1 0 0\nMotionEnd\nSphere 1 -1 1 360")
+t.expect(t.run("times.rib").stderr.count("[rib-motion]") == 1, "times that do not increase are one message")
+t.write("once.rib", WORLD % "MotionBegin [0]\nTranslate 0 0 0\nTranslate 1 0 0\nMotionEnd\nSphere 1 -1 1 360")
+t.expect_run("more requests than times", ["once.rib"], 0, "1 time, but more requests")
+t.write("channel.rib", 'DisplayChannel "float[100000000] d"\n' + GOOD)
+t.expect_run("a channel of too many numbers is no declaration", ["channel.rib"], 0, "channel.rib:1", '"float[100000000] d" is no declaration of a channel; ignored')
+t.write("long.rib", 'Surface "' + "a" * 3000000 + '"\n' + GOOD)
+t.expect_run("after a string that is too long the file is read on", ["long.rib"], 0, "long.rib:1", "a string that is too long")
+t.write("bright.rib", GOOD.replace("Surface", "Color [1e38 1e38 1e38]\nExposure 1e30 1\nSurface"))
+t.expect("nan" not in t.run("bright.rib").stderr, "infinite light has no uncertain share")
+
 # Nothing is visible: the frame is what the scene asks for, but hardly what its author wanted.
 for what, change, says in (("behind the camera", ("0 0 4", "0 0 -4"), "behind the camera"),
                            ("beyond the far plane", ("Translate", "Clipping 0.1 2\nTranslate"), "far clipping plane"),

@@ -69,7 +69,7 @@ TEST(OptionTable, HasLimits) {
       {"PixelFilter \"box\" 0 1", refused, [&](const Options& o) { return o.filter == plain.filter; }},
       {"PixelFilter \"box\" 1 0", refused, [&](const Options& o) { return o.filter == plain.filter; }},
       {"PixelFilter \"box\" 1e-4 65", clamped + clamped,
-       [](const Options& o) { return o.xFilterWidth == 1e-3f && o.yFilterWidth == 64; }},
+       [](const Options& o) { return o.xFilterWidth == 1 && o.yFilterWidth == 32; }},
       {"Exposure 2 0", refused, [](const Options& o) { return o.exposureGain == 1; }},
       {"Option \"limits\" \"bucketsize\" [0 4097]", clamped + clamped,
        [](const Options& o) { return o.bucketWidth == 1 && o.bucketHeight == 4096; }},
