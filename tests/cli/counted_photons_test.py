@@ -94,6 +94,11 @@ for method in "reference", "progressive":
     usual = ("--gi", method, "--samples", "1", "--photons", "150000")
     t.expect(bytes_of("one_thread", scene, *usual, "-t", "1") == bytes_of("threads", scene, *usual, "-t", "3", "--bucket-size", "8"),
              f"{method} has the same bits for any threads and buckets")
+for shader, model, told in ("glass", "matte", True), ("glass", "glass", False), ("matte", "matte", False):
+    ball = f'Attribute "identifier" "name" "ball"\nAttribute "photon" "shadingmodel" "{model}"\nSurface "{shader}"\nSphere 0.2 -0.2 0.2 360\nWorldEnd'
+    t.write("ball.rib", CLOSED.format(name="ball").replace("WorldEnd", ball))
+    said = t.run("ball.rib", "--gi", "progressive", "--photons", "1000").stderr
+    t.expect(('"ball": its shader traces rays, and photons take it for matte' in said) == told, f"{shader} that is {model} for photons is {'' if told else 'not '}told of ({said})")
 few, many = (bytes_of(n, CLOSED, "--gi", "reference", "--samples", "2", "--photons", n[1:]) for n in ("p1000", "p2000"))
 t.expect(few == many, "the reference sends no photons where nothing mirrors them")
 t.write("ends.rib", CLOSED.format(name="ends"))

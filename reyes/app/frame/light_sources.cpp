@@ -33,10 +33,24 @@ void openMapsOfBaked(GiServices& services, const FrameOfLight& frame) {
   services.setAtlas(openBaked(frame.scene, frame.shading, frame.settings, frame.log));
 }
 
+/// Warns of surfaces that mirror or refract for the eye, and are matte for photons: no photon brings their caustics.
+void warnOfMatteMirrors(const FrameOfLight& frame) {
+  for (size_t g = 0; g < frame.scene.groups.size(); ++g) {
+    const ShadeGroup& group = frame.scene.groups[g];
+    if (group.attributes->photon.shadingModel != "matte" || !frame.shading.group(static_cast<int>(g)).tracesRays())
+      continue;
+    frame.log.report(Severity::Warning, "photons-matte", group.where,
+                     fmt::format("{}: its shader traces rays, and photons take it for matte: they bring no light that "
+                                 "it mirrors or refracts (Attribute \"photon\" \"shadingmodel\")",
+                                 objectName(group)));
+  }
+}
+
 /// Counts photons at visible points. In the reference these are photons of caustics, if mirrors or glass can make any.
 void setPhotons(GiServices& services, const FrameOfLight& frame) {
   if (!countsPhotons(methodOf(frame.settings, frame.shading), frame.scene)) return;
   const bool causticsAlone = methodOf(frame.settings, frame.shading).causticsAlone;
+  if (!causticsAlone) warnOfMatteMirrors(frame);
   PhotonPasses passes;
   passes.photons = frame.settings.light.photons;
   passes.noise = frame.settings.light.photonNoise;
