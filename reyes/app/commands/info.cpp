@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -15,6 +16,7 @@
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
+#include "reyes/pictures.h"
 
 namespace tomales {
 namespace {
@@ -41,6 +43,18 @@ Json channelInfo(const Image& image, size_t channel) {
           {"not_finite", strange}};
 }
 
+/// Returns all samples of a deep picture as one row of pixels; nothing for a picture that is flat or damaged.
+std::optional<Image> samplesOf(const std::string& file) {
+  std::string error;
+  const auto in = openPicture(file, error);
+  std::vector<uint32_t> counts;
+  Image row;
+  if (!in || !in->deep() || !in->readDeep(counts, row.pixels)) return std::nullopt;
+  row.channels = in->shape().channels;
+  row.width = static_cast<int>(row.pixels.size() / std::max<size_t>(1, row.channels.size()));
+  return row;
+}
+
 Json imageInfo(const std::string& file, Log& log) {
   std::string error;
   const std::optional<Image> image = readImage(file, error);
@@ -49,14 +63,19 @@ Json imageInfo(const std::string& file, Log& log) {
                "cannot be read as a picture: " + error);
     return {};
   }
+  // Where samples lie before each other, only colours add up, so the figures of a deep picture are those of its
+  // samples.
+  const std::optional<Image> samples = samplesOf(file);
   Json channels = Json::array();
-  for (size_t c = 0; c < image->channels.size(); ++c) channels.push_back(channelInfo(*image, c));
-  return {{"file", file},
-          {"kind", "image"},
-          {"size", {image->width, image->height}},
-          {"origin", {image->originX, image->originY}},
-          {"display_size", {image->displayWidth, image->displayHeight}},
-          {"channels", channels}};
+  for (size_t c = 0; c < image->channels.size(); ++c) channels.push_back(channelInfo(samples ? *samples : *image, c));
+  Json out = {{"file", file},
+              {"kind", "image"},
+              {"size", {image->width, image->height}},
+              {"origin", {image->originX, image->originY}},
+              {"display_size", {image->displayWidth, image->displayHeight}}};
+  if (samples) out["deep_samples"] = samples->width;
+  out["channels"] = channels;
+  return out;
 }
 
 void unreadable(const std::string& file, const char* kind, const std::string& error, Log& log) {
