@@ -126,7 +126,10 @@ size_t brickCacheBytes(const ResourceSettings& settings) {
 }
 
 std::string withFrameNumber(const std::string& path, int frame) {
-  const size_t first = path.find('#');
+  size_t parent = 0;  // of the folders that exist, a '#' is part of the name
+  for (size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
+    if (std::error_code ignored; std::filesystem::is_directory(path.substr(0, slash), ignored)) parent = slash;
+  const size_t first = path.find('#', parent);
   if (first == std::string::npos) return path;
   const size_t last = std::min(path.find_first_not_of('#', first), path.size());
   std::string digits = std::to_string(frame);

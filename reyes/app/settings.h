@@ -167,7 +167,7 @@ int64_t textureShare(int64_t memoryLimit);
 int64_t rayShare(int64_t memoryLimit);
 size_t brickCacheBytes(const ResourceSettings& settings);
 
-/// Replaces runs of '#' by the frame number, padded to their length.
+/// Replaces a run of '#' by the frame number, padded to its length. The name of a folder that exists stays as it is.
 std::string withFrameNumber(const std::string& path, int frame);
 
 }  // namespace tomales

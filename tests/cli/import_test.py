@@ -330,4 +330,6 @@ t.expect_run("names with blanks", ["import", "a name.glb", "-o", "a scene.rib"],
 t.expect_run("are found again", ["a scene.rib", "-o", "odd.png", "--format", "32x24"], 0)
 t.expect(len(list((t.folder / "a scene_parts").iterdir())) == 1 and not list(t.folder.parent.glob("*escaped*")), "and lead nowhere else")
 
+t.expect_run("a folder that is missing is named, and no file that nobody asked for", ["import", sorted(p.name for p in t.folder.glob("*.obj"))[0], "-o", "none/a.rib"], 4,
+             "none/a.rib cannot be written: its folder is missing")
 t.finish()

@@ -8,6 +8,7 @@ from program import GOOD, Suite
 
 t = Suite()
 t.write("good.rib", GOOD)
+t.write("maps_alone.rib", 'Display "only.z" "zfile" "z"\n' + GOOD.split("\n", 1)[1])
 
 # Wrong usage gives exit code 1.
 for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--memory-limit", "much"],
@@ -16,6 +17,20 @@ for arguments in ([], ["render"], ["good.rib", "--frobnicate"], ["good.rib", "--
     t.expect_run("usage: " + " ".join(arguments), arguments, 1)
 for arguments in (["good.rib", "--stats", "-o", "a.exr"], ["good.rib", "-o", "--progress"], ["chart", "-o", "-t", "1", "good.rib"]):
     t.expect_run("usage: " + " ".join(arguments), arguments, 1, "stands where a value is missing")
+for arguments, range_of_values in ((["--frames", "9-1"], "ranges rise"), (["--frames", "1-9999999"], "at most a million"), (["--crop", "0,2,0,1"], "from 0 to 1"),
+                                   (["--format", "0x9"], "from 1 to"), (["--pixel-samples", "4x99"], "from 1 to 64"), (["--brick-cache", "-5"], "10M"),
+                                   (["--irradiance-append"], "--irradiance")):
+    t.expect_run("the refusal of " + " ".join(arguments) + " says what is allowed", ["good.rib", *arguments], 1, range_of_values)
+for arguments in (["--photons", "5"], ["--photon-noise", "0.1"], ["--atlas", "maps"], ["--atlas-direct", "stored"], ["--brick-maxerror", "0.1"],
+                  ["--radiosity-texels", "2"], ["--radiosity-maps", "maps"], ["--pilot-frames", "1"], ["--animation-settings", "a.json"], ["--audit-every", "3"]):
+    t.expect_run(f"{arguments[0]} warns that it has no effect", ["good.rib", *arguments], 0, f"{arguments[0]} has no effect", "[option-unused]")
+    t.expect("option-unused" not in t.run("maps_alone.rib", *arguments).stderr, "but not in a frame of maps alone")
+t.expect_run("the warning names the methods that read the option", ["good.rib", "--gi", "none", "--photons", "5"], 0,
+             "for --gi atlas, progressive and reference, and the light is by --gi none")
+for arguments in (["--gi", "atlas", "--photons", "5000"], ["--gi", "progressive", "--photons", "5000", "--photon-noise", "0.5"], ["--gi", "radiosity", "--radiosity-texels", "2"],
+                  ["--gi", "atlas", "--photons", "5000", "--atlas", "maps", "--atlas-direct", "stored", "--brick-maxerror", "0.1"],
+                  ["--gi", "radiosity", "--radiosity-maps", "texels"], ["--gi", "radiosity", "--atlas", "direct"]):
+    t.expect("option-unused" not in t.run("good.rib", *arguments).stderr, " ".join(arguments) + " has an effect")
 t.expect_run("--version", ["--version"], 0, sys.argv[2])
 t.expect_run("--help", ["--help"], 0, "render", "info", "compare")
 
@@ -51,6 +66,11 @@ frames = "".join(f"FrameBegin {n}\n{GOOD}FrameEnd\n" for n in (1, 2, 3))
 t.write("frames.rib", frames)
 t.expect_run("--frames with numbered output", ["frames.rib", "--frames", "1-3x2", "-o", "f.###.exr"], 0)
 t.expect(sorted(p.name for p in t.folder.glob("f.*.exr")) == ["f.001.exr", "f.003.exr"], "writes those frames and no other")
+(t.folder / "take #2").mkdir()
+t.expect_run("-o in a folder whose name has a #", ["frames.rib", "--frames", "1", "-o", "take #2/f#.exr"], 0)
+t.expect([p.name for p in t.folder.glob("take*")] == ["take #2"] and (t.folder / "take #2/f1.exr").exists(), "writes there, and makes no folder")
+t.expect_run("-o in a new folder for each frame", ["frames.rib", "--frames", "2", "-o", "take##/f.exr"], 0)
+t.expect((t.folder / "take02/f.exr").exists(), "makes the folder of the frame")
 t.expect_run("frames over one name", ["frames.rib", "-o", "one.exr"], 0, "written over")
 t.expect_run("frames that are not there", ["frames.rib", "--frames", "8"], 2, "--frames")
 
@@ -74,6 +94,12 @@ for copy in ("map.z", "map", "map.rib", "map.tex", "map.jpg"):
     info = json.loads(t.expect_run(f"info of a picture called {copy}", ["info", copy, "--json"], 0).stdout)
     t.expect(info["kind"] == "image" and info["size"] == [24, 24], "goes by its first bytes")
 t.expect_run("a picture is no scene, whatever its name", ["map.rib"], 2, "is a picture by its first bytes", "not-rib")
+
+t.write("glassy.rib", GOOD.replace('"good.exr" "file"', '"deep.exr" "deepexr"').replace("Surface", "Opacity [0.5 0.5 0.5]\nSurface"))
+t.run("glassy.rib")
+info = json.loads(t.run("info", "deep.exr", "--json").stdout)
+depth = {c["name"]: c for c in info["channels"]}["Z"]
+t.expect(info["deep_samples"] > 24 * 24 / 4 and 2.9 < depth["min"] < depth["mean"] < depth["max"] < 5.1, f"info of a deep picture is of its samples, whose depths do not add up ({depth})")
 
 # After an interruption, finished buckets are written and the exit code reports it.
 for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):

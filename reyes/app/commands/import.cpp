@@ -93,6 +93,8 @@ int importCommand(model::Settings settings) {
                         "cannot be read: " + problem);
     const fs::path scene = fs::absolute(throughLinks(settings.scene));
     if (isAmong(scene, {settings.model})) throw WriteError(scene.string() + " is the model itself");
+    if (!fs::is_directory(scene.parent_path()))
+      throw WriteError(settings.scene + " cannot be written: its folder is missing");
     const TemporaryFolder scratch(scene.parent_path());
     settings.scene = (scratch.path() / scene.filename()).string();
     settings.parts = (scratch.path() / "parts").string();

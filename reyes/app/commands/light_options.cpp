@@ -68,8 +68,8 @@ void addMapOptions(CLI::App& app, RenderSettings& s) {
   app.add_option("--radiosity-maps", s.stored.radiosityFolder,
                  "Write the radiosity maps there: a tiled MIP EXR for each object and side; not with --atlas")
       ->type_name("FOLDER");
-  app.add_option("--brick-cache", s.resources.brickCacheBytes, "Memory for bricks (default 10M)")
-      ->transform(CLI::AsSizeValue(false));
+  const auto bytes = [](const std::string& text) -> std::optional<size_t> { return parseBytes(text); };
+  addParsed(app, "--brick-cache", s.resources.brickCacheBytes, bytes, "10M", "Memory for bricks (default 10M)");
   app.add_option("--brick-maxerror", s.stored.brickMaxError,
                  "Bricks whose voxels vary by less, as a share of the mean, are left out of the maps of --gi atlas "
                  "(default 0.03)")

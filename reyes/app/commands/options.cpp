@@ -57,7 +57,8 @@ std::optional<std::string> parseOutput(const std::string& text) {
 
 void addOutput(CLI::App& app, PictureSettings& s) {
   addParsed(app, "-o", s.output, parseOutput, pictureNames(),
-            "Write here instead of to the first Display, other pictures beside it; # stands for the frame number. "
+            "Write here instead of to the first Display, other pictures beside it; # stands for the frame number, "
+            "but in the names of folders that exist. "
             "PNG: rgb, in sRGB unless the scene's Exposure has a gamma (everything else is linear, also a PNG of a "
             "Display). A scene without Display writes ri.exr");
   app.add_flag("--one-picture", s.onePicture, "With -o: leave out the scene's other Displays, shadow maps excepted")
@@ -66,7 +67,8 @@ void addOutput(CLI::App& app, PictureSettings& s) {
 
 void addCrop(CLI::App& app, PictureSettings& s) {
   addParsed(app, "--crop", s.crop, parseCrop, "X0,X1,Y0,Y1",
-            "Part of the frame, 0..1 from the top left (default: CropWindow)");
+            "Part of the frame, 0..1 from the top left (default: CropWindow)",
+            ": numbers from 0 to 1 are allowed, X0 below X1 and Y0 below Y1");
   app.add_flag(
          "--overwrite", s.overwrite,
          "With --crop: write over pictures of the scene that hold more. Without it they are kept, and the crop of "
@@ -75,14 +77,17 @@ void addCrop(CLI::App& app, PictureSettings& s) {
 }
 
 void addFrameSize(CLI::App& app, RenderSettings& s) {
-  const auto format = [](const std::string& t) { return parsePair(t, 1, 65536); };
+  constexpr int kMostPixels = 65536, kMostSamples = 64;
+  const auto format = [](const std::string& t) { return parsePair(t, 1, kMostPixels); };
   const Options unasked;  // the options of a scene that sets none
-  const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, 64); };
+  const auto pixelSamples = [](const std::string& t) { return parsePair(t, 1, kMostSamples); };
   addParsed(
       app, "--format", s.picture.format, format, "WxH",
-      fmt::format("Resolution in pixels (default: the scene's, or {}x{})", unasked.xResolution, unasked.yResolution));
+      fmt::format("Resolution in pixels (default: the scene's, or {}x{})", unasked.xResolution, unasked.yResolution),
+      fmt::format(": whole numbers from 1 to {} are allowed", kMostPixels));
   addParsed(app, "--pixel-samples", s.picture.pixelSamples, pixelSamples, "NxM",
-            fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples));
+            fmt::format("Samples of a pixel (default: the scene's, or {}x{})", unasked.xSamples, unasked.ySamples),
+            fmt::format(": whole numbers from 1 to {} are allowed", kMostSamples));
   app.add_option("--shading-rate", s.picture.shadingRate,
                  "Area of a micropolygon in pixels (default: as objects ask, or 1)")
       ->check(between(1e-3, 1e6));
@@ -98,7 +103,8 @@ void addPictureOptions(CLI::App& app, RenderSettings& s) {
   app.add_flag("--draft", s.picture.draft,
                "Coarse and fast, for placing lights: 50 gather rays, no displacement, micropolygons of 16 times the "
                "area, 2x2 samples");
-  addParsed(app, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)");
+  addParsed(app, "--frames", s.input.frames, parseFrames, "1-10x2,15", "Only these frames (default: all)",
+            ": ranges rise, and at most a million frames are allowed");
   addFramesApart(app, s.input);
   addParsed(app, "--makes", s.input.makes, parseFrames, "0-3,5",
             "Only these Make requests, such as MakeTexture, counted from 0; \"none\" runs none (default: all)");

@@ -33,7 +33,8 @@ void buildRender(CLI::App& app, Invocation& in, int& code) {
                 "Indirect light from these records instead of a gather pass")
       ->type_name("SHOT.icf");
   c->add_flag("--irradiance-append", in.render.stored.appendIrradiance,
-              "Gather where those records leave points uncovered or disagree");
+              "Gather where those records leave points uncovered or disagree")
+      ->needs("--irradiance");
   c->add_option(
        "--baked", in.render.stored.bakedFolder,
        "Brick maps of gathered light: made, or added to; with --gi baked used instead of gathering, by any camera")

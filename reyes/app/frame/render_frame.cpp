@@ -12,6 +12,7 @@
 #include "reyes/app/frame/outputs.h"
 #include "reyes/app/frame/provenance.h"
 #include "reyes/app/frame/tile_store.h"
+#include "reyes/app/frame/unused_options.h"
 #include "reyes/base/process.h"
 #include "reyes/base/stop.h"
 
@@ -145,6 +146,7 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   FrameJob job(scene, shaders, settings, stats, log);
   const bool given = !settings.stored.irradiance.empty(),
              gathers = job.gathersBeside(given && !settings.stored.appendIrradiance);
+  if (!writesMapsAlone(scene.options, settings)) warnOfUnusedOptions(settings, job.method(), log);
   if (gathers) describeGather(scene.options, settings);
   if (!settings.stored.bakedFolder.empty() && !(gathers && job.gathers()) && !job.method().usesBaked)
     log.report(Severity::Warning, "baked-unused", {},
