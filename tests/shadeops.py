@@ -13,7 +13,7 @@ def code(files):
 
 source = pathlib.Path(sys.argv[1])
 headers = code(source / name for name in sys.argv[2].split(":"))
-tests = code(sorted((source / "tests/unit").rglob("*.cpp")))
+tests = code(sorted(path for path in (source / "tests/unit").rglob("*") if path.suffix in (".cpp", ".h")))
 bad = 0
 rows = [line for line in (source / "tests/unit/shade/shadeops.txt").read_text().splitlines() if line and not line.startswith("#")]
 for row in rows:
