@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "reyes/filter_width.h"
 #include "reyes/image.h"
 
 namespace tomales {
@@ -91,9 +92,8 @@ constexpr std::array<Named, 11> kFilters = {{{"gaussian", gaussian},
                                              {"bessel", bessel},
                                              {"disk", disk}}};
 
-// A filter narrower than a pixel would miss every sample of some pixels; the upper limit bounds memory against a
-// mistyped width.
-float usableWidth(float width) { return std::min(std::max(1.0f, width), 32.0f); }
+// std::max comes first, so that a NaN becomes the narrowest filter.
+float usableWidth(float width) { return std::min(std::max(kNarrowestFilter_px, width), kWidestFilter_px); }
 
 int reach(float width) { return static_cast<int>(std::ceil((width - 1) / 2)); }
 

@@ -1,6 +1,7 @@
 // Options (RISpec 3.2 section 4.1). Values that make no picture are reported and leave the option as it was.
 #include <fmt/format.h>
 
+#include "reyes/filter_width.h"
 #include "reyes/rib/handlers.h"
 #include "reyes/rib/option_table.h"
 #include "reyes/rib/refusals.h"
@@ -9,7 +10,6 @@ namespace tomales::rib {
 namespace {
 
 constexpr float kLargestImage = 32768;  // Pixels of a side; readers of OpenEXR and TIFF stop about there.
-constexpr float kWidestFilter = 32;     // Pixels; the narrowest filter has one.
 constexpr float kMostSamples = 256;     // Samples along a side of a pixel's lattice.
 
 void rejectOption(GraphicsState& s, const Request& r, const std::string& why) {
@@ -148,8 +148,8 @@ void pixelFilter(GraphicsState& s, const Request& r) {
   const std::vector<float>& width = r.args[1].numbers;
   if (!(width[0] > 0 && width[1] > 0)) return rejectOption(s, r, "filter widths must be positive");
   s.globals.options.filter = r.args[0].strings[0];
-  s.globals.options.xFilterWidth = clamped(s, r, width[0], 1, kWidestFilter);
-  s.globals.options.yFilterWidth = clamped(s, r, width[1], 1, kWidestFilter);
+  s.globals.options.xFilterWidth = clamped(s, r, width[0], kNarrowestFilter_px, kWidestFilter_px);
+  s.globals.options.yFilterWidth = clamped(s, r, width[1], kNarrowestFilter_px, kWidestFilter_px);
 }
 
 void exposure(GraphicsState& s, const Request& r) {
