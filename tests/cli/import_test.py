@@ -1,4 +1,5 @@
 """Tests models of other programs as scenes: where things are in the picture, and the messages about what cannot be imported."""
+import os
 import math
 import pathlib
 import sys
@@ -294,6 +295,15 @@ t.expect_run("a texture that is missing", ["import", "named.obj", "-o", "gone.ri
 t.write("wood.png", b"no picture")
 t.write("paint.mtl", "newmtl paint\nmap_Kd wood.png\n")
 t.expect_run("a texture that is no picture", ["import", "named.obj", "-o", "gone.rib"], 3, "cannot be read")
+
+t.write("plain.obj", obj(positions, quads, uvs, normals, before="mtllib gone.mtl", material="paint"))
+t.expect_run("a file of materials that is missing", ["import", "plain.obj", "-o", "gone.rib"], 3, '"gone.mtl" is not there; its materials are grey')
+t.write("plain.mtl", "newmtl paint\nKd 1 0 0\n")
+t.expect_run("the file of materials of the model's own name", ["import", "plain.obj", "-o", "gone.rib"], 3, '"gone.mtl" is not there; "plain.mtl" is read instead')
+t.write("huge.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n")
+enough = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") > 48e9  # then the file ends too early
+t.expect_run("a count beyond the memory", ["import", "huge.ply", "-o", "gone.rib"], 2, "cannot be read" if enough else "there is not enough memory for what it says that it holds")
 
 # Larger meshes become archives in a folder beside the scene.
 n = 24

@@ -10,6 +10,7 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <deque>
+#include <exception>
 
 #include "reyes/base/text.h"
 #include "reyes/bindings/assimp/file_content.h"
@@ -21,21 +22,32 @@
 namespace tomales::model {
 namespace {
 
+/// What Assimp asks for beside the model.
+struct Companions {
+  MtlMaterials materials;            ///< Those of the files of materials that an .obj names.
+  std::vector<std::string> missing;  ///< The files of materials that are not there.
+  std::string instead;               ///< The one that Assimp reads in place of the last of them.
+};
+
 /// The files of a model as Assimp gets them.
 class ModelFiles : public Assimp::DefaultIOSystem {
  public:
-  /// `materials` is filled as Assimp reads the files of materials that an .obj names.
-  ModelFiles(const std::string& model, const PlainGltf& gltf, MtlMaterials& materials)
-      : model_(model), ending_(endingOf(model)), gltf_(gltf), materials_(materials) {}
+  /// `companions` is filled as Assimp asks for files.
+  ModelFiles(const std::string& model, const PlainGltf& gltf, Companions& companions)
+      : model_(model), ending_(endingOf(model)), gltf_(gltf), companions_(companions) {}
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const std::string name = file;
     if (name == model_ && !gltf_.bytes.empty()) return streamOf(gltf_.bytes);
     if (name.ends_with(kFloatsFile) && !gltf_.floats.empty()) return streamOf(gltf_.floats);
     if (name == model_ && ending_ == ".off") return streamOf(texts_.emplace_back(plainOff(contentOf(name))));
-    if (name != model_ && ending_ == ".obj" && Exists(file))
-      return streamOf(texts_.emplace_back(plainMtl(contentOf(name), materials_)));
-    return DefaultIOSystem::Open(file, mode);
+    if (name == model_ || ending_ != ".obj") return DefaultIOSystem::Open(file, mode);
+    if (!Exists(file)) {
+      companions_.missing.push_back(name);
+      return nullptr;
+    }
+    if (!companions_.missing.empty()) companions_.instead = name;
+    return streamOf(texts_.emplace_back(plainMtl(contentOf(name), companions_.materials)));
   }
 
  private:
@@ -46,7 +58,7 @@ class ModelFiles : public Assimp::DefaultIOSystem {
   const std::string& model_;
   const std::string ending_;
   const PlainGltf& gltf_;
-  MtlMaterials& materials_;
+  Companions& companions_;
   std::deque<std::string> texts_;  // Those that streams read from.
 };
 
@@ -80,6 +92,15 @@ void tellOfGltf(const PlainGltf& gltf, const SourceLoc& where, Log& log) {
              fmt::format("extensions of glTF are left out: {}{}", listed(gltf.leftOut), required));
 }
 
+/// After a file that is not there, Assimp tries the .mtl of the model's own name. So the first is what the model names.
+void tellOfMissing(const Companions& companions, const SourceLoc& where, Log& log) {
+  if (companions.missing.empty()) return;
+  const std::string otherwise =
+      companions.instead.empty() ? "its materials are grey" : fmt::format("\"{}\" is read instead", companions.instead);
+  log.report(Severity::Missing, "import-texture", where,
+             fmt::format("the file of materials \"{}\" is not there; {}", companions.missing.front(), otherwise));
+}
+
 }  // namespace
 
 void importModel(const Settings& settings, Log& log) {
@@ -87,12 +108,14 @@ void importModel(const Settings& settings, Log& log) {
   const std::string ending = endingOf(settings.model);
   const PlainGltf gltf = ending == ".gltf" || ending == ".glb" ? plainGltf(settings.model) : PlainGltf();
   tellOfGltf(gltf, where, log);
-  MtlMaterials materials;
+  Companions companions;
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer.SetIOHandler(new ModelFiles(settings.model, gltf, materials));  // which it deletes
+  importer.SetIOHandler(new ModelFiles(settings.model, gltf, companions));  // which it deletes
   const aiScene* scene = importer.ReadFile(settings.model, aiProcess_ValidateDataStructure);
-  if (scene && scene->mRootNode) return writeScene(*scene, settings, materials, log);
+  tellOfMissing(companions, where, log);
+  if (scene && scene->mRootNode) return writeScene(*scene, settings, companions.materials, log);
+  if (importer.GetException()) std::rethrow_exception(importer.GetException());
   log.report(Severity::Error, "import-unreadable", where, std::string("cannot be read: ") + importer.GetErrorString());
 }
 

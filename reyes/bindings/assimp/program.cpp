@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <new>
+
 #include "reyes/base/chunk_file.h"
 #include "reyes/bindings/assimp/model_file.h"
 
@@ -36,6 +38,9 @@ int main(int argc, char** argv) {
     model::importModel(settings, log);
   } catch (const WriteError& e) {
     log.report(Severity::Output, "import-write", {}, e.what());
+  } catch (const std::bad_alloc&) {
+    log.report(Severity::Error, "import-unreadable", where,
+               "cannot be read: there is not enough memory for what it says that it holds");
   } catch (const std::exception& e) {
     log.report(Severity::Error, "import-unreadable", where, std::string("cannot be read: ") + e.what());
   }
