@@ -1,6 +1,6 @@
 """Tests models of other programs as scenes: where things are in the picture, and the messages about what cannot be imported."""
-import os
 import math
+import os
 import pathlib
 import sys
 
