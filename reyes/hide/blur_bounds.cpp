@@ -48,7 +48,7 @@ TOMALES_HOT float leastOf(const float* v, int count) {
   std::fill_n(lanes, kMany, kInfinity);
   int i = 0;
   for (; i + kMany <= count; i += kMany)
-    for (int k = 0; k < kMany; ++k) lanes[k] = v[i + k] < lanes[k] ? v[i + k] : lanes[k];
+    for (int k = 0; k < kMany; ++k) lanes[k] = least(lanes[k], v[i + k]);
   for (const float lane : lanes) out = least(out, lane);
   for (; i < count; ++i) out = least(out, v[i]);
   return out;

@@ -122,6 +122,7 @@ const Object* findOpenEdge(std::span<const Object> objects) {
 }
 
 void findTurned(std::span<Object> objects) {
+  if (objects.size() < 2) return;  // most primitives are one object, whose edges need no comparison
   const Edges edges = edgesOf(objects);
   Votes votes;
   for (const EdgeLine& line : edges.lines) compareDirections(line, edges, votes);
