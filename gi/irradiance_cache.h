@@ -4,6 +4,7 @@
 // Space: that of the caller, the same for insert and lookup. Threads: lookups are concurrent and lock-free as long as
 // nobody inserts.
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -59,6 +60,10 @@ class IrradianceCache {
   void insert(const IrradianceRecord& record);
   /// Adds one of records() of an earlier cache with these settings, unchanged.
   void restore(const IrradianceRecord& record);
+  /// Makes lookups of single places several times as fast; their results stay the same. mostPixels(box) returns the
+  /// greatest pixelSize of the lookups in a box; those that have a greater one are slow, but right. Pre: no record is
+  /// added later.
+  void finish(const std::function<float(const Bound3&)>& mostPixels);
   /// Returns the weighted mean of the extrapolated records (eq. 5, 7): those that serve `normal`, turned to
   /// `shadingNormal`. pixelSize: root of the projected pixel area at x. light: as in the lookup of many places below.
   IrradianceEstimate lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal, float pixelSize,

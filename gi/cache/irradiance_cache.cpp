@@ -7,6 +7,7 @@
 #include "gi/cache/amendments/slopes.h"
 #include "gi/cache/amendments/switches.h"
 #include "gi/cache/published.h"
+#include "gi/cache/record_cells.h"
 #include "gi/cache/record_tree.h"
 #include "gi/cache/vicinity.h"
 
@@ -40,6 +41,7 @@ struct IrradianceCache::Impl {
   Bound3 bound;
   RecordTree tree{bound};
   IrradianceRecords records{};
+  std::optional<RecordCells> cells{};  ///< Exists once the cache is finished.
   const ErrorFunctionInfo& info = infoOf(settings.errorFunction);
   const Published published = publishedBy(info.equations, settings.kappa);
   Disagreements disagreements{has(Amendment::Disagreements), info.equations, settings.kappa};
@@ -98,10 +100,15 @@ struct IrradianceCache::Impl {
     search.vicinity.assign(search.near, records, [this](const IrradianceRecord& r) { return unclampedRadius(r); });
   }
 
-  /// Replaces search.found by the candidates at a place. Pre: findNear() has been called for a region around it. The
-  /// weight falls smoothly to 0 where the record stops being used, so that interpolation has no seams.
+  /// Replaces search.found by the candidates at a place. Pre: findNear() has been called for a region around it.
   void findAt(const vec3& x, const vec3& n, const Range& range, Search& search) const {
     search.vicinity.find(x, n, range, search.serving);
+    weigh(search);
+  }
+
+  /// Replaces search.found by the candidates among search.serving. The weight falls smoothly to 0 where the record
+  /// stops being used, so that interpolation has no seams.
+  void weigh(Search& search) const {
     search.found.clear();
     std::visit(
         [&](const auto& equations) {
@@ -112,13 +119,30 @@ struct IrradianceCache::Impl {
         published);
   }
 
-  /// Does the same for one place alone.
+  /// Returns the candidates at one place alone.
   const std::vector<Candidate>& candidatesAt(const vec3& x, const vec3& n, float pixelSize) const {
     Search& search = searchOfThread();
     const Range range = rangeAt(pixelSize, 1);
-    findNear({x, x}, range, search);
-    findAt(x, n, range, search);
+    if (const auto near = cells ? cells->find(x, pixelSize) : std::nullopt) {
+      search.serving.clear();
+      for (const uint32_t record : *near)
+        if (const Serving s = servingOf(record, (*cells)[record], x, n, range); s.fades > 0)
+          search.serving.push_back(s);
+      weigh(search);
+    } else {
+      findNear({x, x}, range, search);
+      findAt(x, n, range, search);
+    }
     return search.found;
+  }
+
+  void finish(const std::function<float(const Bound3&)>& mostPixels) {
+    std::vector<RecordReach> reaches;
+    for (const IrradianceRecord& r : records) reaches.push_back(RecordReach::of(r, unclampedRadius(r)));
+    const auto reachOf = [&](const RecordReach& r, float pixelSize) {
+      return (1 + kSlack) * std::min(reach(r.size, pixelSize), r.limit);
+    };
+    cells.emplace(bound, std::move(reaches), reachOf, mostPixels);
   }
 
   static Search& searchOfThread() {
@@ -219,6 +243,10 @@ void IrradianceCache::restore(const IrradianceRecord& record) {
   impl_->records.push_back(record);
   impl_->disagreements.add(luminance(record.light.E));
   if (impl_->settings.kappa < kInfinity) impl_->insertLast();
+}
+
+void IrradianceCache::finish(const std::function<float(const Bound3&)>& mostPixels) {
+  if (impl_->settings.kappa < kInfinity) impl_->finish(mostPixels);
 }
 
 IrradianceEstimate IrradianceCache::lookup(const vec3& x, const vec3& normal, const vec3& shadingNormal,

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gi/cache/octree_box.h"
 #include "reyes/base/block_vector.h"
 #include "reyes/base/math.h"
 
@@ -18,10 +19,7 @@ namespace tomales {
 class RecordTree {
  public:
   /// `bound` should hold all records; records outside of it still work, only slower.
-  explicit RecordTree(const Bound3& bound)
-      : root_(bound.empty() ? Box{vec3(0.0f), 0.0f} : Box{bound.center(), 0.5001f * maxComponent(bound.size())}) {
-    nodes_.push_back({});
-  }
+  explicit RecordTree(const Bound3& bound) : root_(OctreeBox::around(bound)) { nodes_.push_back({}); }
 
   /// Adds the record whose number is the count of those before. `radius` is how far it reaches for places of its own
   /// pixel size.
@@ -29,7 +27,7 @@ class RecordTree {
     const auto record = static_cast<uint32_t>(entries_.size());
     entries_.push_back({position, size, limit, kNone});
     if (!root_.contains(position)) return outside_.push_back(record);
-    Box box = root_;
+    OctreeBox box = root_;
     uint32_t node = 0;
     for (int depth = 0; depth < kMaxDepth && box.half >= radius; ++depth) {
       const unsigned i = box.childIndex(position);
@@ -75,20 +73,6 @@ class RecordTree {
     uint32_t next;  ///< The record that follows in the list of its node.
   };
 
-  struct Box {
-    vec3 center;
-    float half;
-
-    unsigned childIndex(const vec3& p) const {
-      return (p.x >= center.x ? 1u : 0u) | (p.y >= center.y ? 2u : 0u) | (p.z >= center.z ? 4u : 0u);
-    }
-    Box child(unsigned i) const {
-      const float h = half * 0.5f;
-      return {center + vec3(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h), h};
-    }
-    bool contains(const vec3& p) const { return maxComponent(glm::abs(p - center)) <= half; }
-  };
-
   void append(Node& node, uint32_t record) {
     (node.first == kNone ? node.first : entries_[node.last].next) = record;
     node.last = record;
@@ -107,7 +91,7 @@ class RecordTree {
   }
 
   /// Returns the squared distances of a region from the halves below and above the center of a box, for each axis.
-  static std::array<vec3, 2> distances2(const Box& box, const Bound3& region) {
+  static std::array<vec3, 2> distances2(const OctreeBox& box, const Bound3& region) {
     const vec3 half(box.half), none(0.0f);
     const vec3 below = glm::max(glm::max(region.lo - box.center, box.center - half - region.hi), none),
                above = glm::max(glm::max(region.lo - (box.center + half), box.center - region.hi), none);
@@ -115,7 +99,7 @@ class RecordTree {
   }
 
   template <class Reach, class VisitEntry>
-  void visitNode(uint32_t node, const Box& box, const Bound3& region, const Reach& reach,
+  void visitNode(uint32_t node, const OctreeBox& box, const Bound3& region, const Reach& reach,
                  const VisitEntry& visit) const {
     const Node& here = nodes_[node];
     for (uint32_t record = here.first; record != kNone;) record = visit(record);
@@ -127,7 +111,7 @@ class RecordTree {
     }
   }
 
-  Box root_;
+  OctreeBox root_;
   BlockVector<Node> nodes_;  ///< There are nearly as many as records, so memory counts.
   BlockVector<Entry> entries_;
   std::vector<uint32_t> outside_;  ///< Records outside of the root box.

@@ -10,36 +10,55 @@ struct Columns {
   const float *x, *y, *z, *nx, *ny, *nz, *size, *limit, *steepness, *unseen;
 };
 
+// A choice by a flag within a loop would keep GCC from vectorising it, so a limit of floats makes this choice.
+float leastFrontOf(const Range& range) { return range.fadesBehind ? 0.0f : 1.0f; }
+
+inline void serve(const RecordReach& of, const vec3& p, const vec3& n, const Range& range, float leastFront,
+                  float& position, float& angle, float& fades) {
+  const float dx = p.x - of.position.x, dy = p.y - of.position.y, dz = p.z - of.position.z;
+  const float distance2 = dx * dx + dy * dy + dz * dz,
+              cosine = n.x * of.normal.x + n.y * of.normal.y + n.z * of.normal.z;
+  const float covers = range.radiusOf(of.size);
+  const float radius = std::min(covers * reachFactor(of.steepness, covers, range.wider), of.limit);
+  const float height = 0.5f * (dx * (n.x + of.normal.x) + dy * (n.y + of.normal.y) + dz * (n.z + of.normal.z));
+  const float front = std::max(leastFront, 1 - behindness(height, radius, range.pixel, of.unseen));
+  const bool serves = (distance2 < radius * radius) & (cosine > range.leastCosine);
+  position = std::sqrt(distance2) / radius;
+  angle = std::sqrt(std::max(0.0f, 1 - cosine));
+  fades = serves ? front : 0.0f;
+}
+
 TOMALES_HOT void compare(const Columns& of, size_t count, const vec3& p, const vec3& n, const Range& range,
                          float* __restrict position, float* __restrict angle, float* __restrict fades) {
   const float *x = of.x, *y = of.y, *z = of.z, *nx = of.nx, *ny = of.ny, *nz = of.nz;
   const float *size = of.size, *limit = of.limit, *steepness = of.steepness, *unseen = of.unseen;
-  const float px = p.x, py = p.y, pz = p.z, qx = n.x, qy = n.y, qz = n.z;
+  const vec3 place = p, facing = n;
   const Range r = range;
-  // A choice by a flag within the loop would keep GCC from vectorising it, so a limit of floats makes this choice.
-  const float leastFront = r.fadesBehind ? 0.0f : 1.0f;
-  for (size_t i = 0; i < count; ++i) {
-    const float dx = px - x[i], dy = py - y[i], dz = pz - z[i];
-    const float distance2 = dx * dx + dy * dy + dz * dz, cosine = qx * nx[i] + qy * ny[i] + qz * nz[i];
-    const float covers = r.radiusOf(size[i]);
-    const float radius = std::min(covers * reachFactor(steepness[i], covers, r.wider), limit[i]);
-    const float height = 0.5f * (dx * (qx + nx[i]) + dy * (qy + ny[i]) + dz * (qz + nz[i]));
-    const float front = std::max(leastFront, 1 - behindness(height, radius, r.pixel, unseen[i]));
-    const bool serves = (distance2 < radius * radius) & (cosine > r.leastCosine);
-    position[i] = std::sqrt(distance2) / radius;
-    angle[i] = std::sqrt(std::max(0.0f, 1 - cosine));
-    fades[i] = serves ? front : 0.0f;
-  }
+  const float leastFront = leastFrontOf(r);
+  for (size_t i = 0; i < count; ++i)
+    serve({{x[i], y[i], z[i]}, {nx[i], ny[i], nz[i]}, size[i], limit[i], steepness[i], unseen[i]}, place, facing, r,
+          leastFront, position[i], angle[i], fades[i]);
 }
 
 }  // namespace
+
+RecordReach RecordReach::of(const IrradianceRecord& r, float size) {
+  return {r.position, r.normal, size, r.limit, steepnessOf(r), r.unseenDisplacement};
+}
+
+Serving servingOf(uint32_t record, const RecordReach& reach, const vec3& position, const vec3& normal,
+                  const Range& range) {
+  Serving out{.record = record, .position = 0, .angle = 0, .fades = 0};
+  serve(reach, position, normal, range, leastFrontOf(range), out.position, out.angle, out.fades);
+  return out;
+}
 
 void Vicinity::clear() {
   records_.clear();
   for (auto* a : {&x_, &y_, &z_, &nx_, &ny_, &nz_, &size_, &limit_, &steepness_, &unseen_}) a->clear();
 }
 
-void Vicinity::add(uint32_t index, const IrradianceRecord& r, float size) {
+void Vicinity::add(uint32_t index, const RecordReach& r) {
   records_.push_back(index);
   x_.push_back(r.position.x);
   y_.push_back(r.position.y);
@@ -47,10 +66,10 @@ void Vicinity::add(uint32_t index, const IrradianceRecord& r, float size) {
   nx_.push_back(r.normal.x);
   ny_.push_back(r.normal.y);
   nz_.push_back(r.normal.z);
-  size_.push_back(size);
+  size_.push_back(r.size);
   limit_.push_back(r.limit);
-  steepness_.push_back(steepnessOf(r));
-  unseen_.push_back(r.unseenDisplacement);
+  steepness_.push_back(r.steepness);
+  unseen_.push_back(r.unseen);
 }
 
 void Vicinity::find(const vec3& position, const vec3& normal, const Range& range, std::vector<Serving>& out) {

@@ -29,8 +29,21 @@ struct Serving {
   uint32_t record;
   float position;  ///< The distance over the radius; less than 1.
   float angle;     ///< sqrt(1 - n.ni)
-  float fades;     ///< A factor on the weight; more than 0.
+  float fades;     ///< A factor on the weight; 0: it does not serve.
 };
+
+/// The part of a record that tells where it serves.
+struct RecordReach {
+  vec3 position, normal;
+  float size;  ///< The radius before the size of pixels limits it.
+  float limit, steepness, unseen;
+
+  static RecordReach of(const IrradianceRecord& record, float size);
+};
+
+/// Returns how a record serves a place.
+Serving servingOf(uint32_t record, const RecordReach& reach, const vec3& position, const vec3& normal,
+                  const Range& range);
 
 class Vicinity {
  public:
@@ -38,18 +51,18 @@ class Vicinity {
   template <class SizeOf>
   void assign(const std::vector<uint32_t>& indices, const IrradianceRecords& records, const SizeOf& sizeOf) {
     clear();
-    for (const uint32_t i : indices) add(i, records[i], sizeOf(records[i]));
+    for (const uint32_t i : indices) add(i, RecordReach::of(records[i], sizeOf(records[i])));
   }
   /// Replaces `out` by the records that serve this place.
   void find(const vec3& position, const vec3& normal, const Range& range, std::vector<Serving>& out);
 
  private:
   void clear();
-  void add(uint32_t index, const IrradianceRecord& record, float size);
+  void add(uint32_t index, const RecordReach& record);
 
   std::vector<uint32_t> records_;
   AlignedVector<float> x_, y_, z_, nx_, ny_, nz_, size_, limit_, steepness_, unseen_;
-  /// The values of Serving; fades_ is 0 where the record does not serve.
+  /// The values of Serving.
   AlignedVector<float> position_, angle_, fades_;
 };
 

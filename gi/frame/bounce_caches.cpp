@@ -80,6 +80,12 @@ void BounceCaches::restore(const Levels& levels) {
   }
 }
 
+void BounceCaches::finishLevel(const Camera& camera) {
+  levels_.back().finish(
+      [&](const Bound3& box) { return pixelSize(camera, glm::max(glm::abs(box.lo), glm::abs(box.hi))); });
+  mixLevel();
+}
+
 // The share of the first group is the light of surfaces that glow by themselves. It is seen whatever lights are on.
 void BounceCaches::mixLevel() {
   std::vector<std::vector<IrradianceExpansion>>& of = alone_.emplace_back();
@@ -210,7 +216,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
   levels_.emplace_back(bound, kCoarse);
   cover(tools, seen, settings, run);
   cover(tools, hitsFrom(*tools.rays, camera, points_, randomStream("more")), settings, run);
-  mixLevel();
+  finishLevel(camera);
   settings.indirect = true;
   for (int b = 2; b < bounces && !settled() && !run.stop.requested(); ++b) {
     settings.depth = bounces - b + 1;
@@ -223,7 +229,7 @@ void BounceCaches::fill(const RayTools& tools, const Camera& camera, const std::
     light_.push_back(0);
     insert(level, records);
     levels_.push_back(std::move(level));
-    mixLevel();
+    finishLevel(camera);
   }
 }
 

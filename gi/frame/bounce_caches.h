@@ -50,6 +50,7 @@ class BounceCaches {
   RecordSlice recordsAt(const RayTools& tools, const std::vector<GatherPoint>& points, const GatherSettings& gather,
                         const Run& run, bool findsLight);
   void insert(IrradianceCache& level, const std::vector<IrradianceRecord>& records);
+  void finishLevel(const Camera& camera);
   void mixLevel();
   bool settled() const;
   float pixelSize(const Camera& camera, const vec3& P) const;
