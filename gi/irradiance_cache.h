@@ -32,7 +32,7 @@ struct IrradianceEstimate {
   vec3 E;  ///< E/pi per channel
   vec3 dominant[3];
   float weight = 0;           ///< Sum of weights; 0: nothing usable was found.
-  bool inconsistent = false;  ///< The records used differ by more than their noise explains.
+  bool inconsistent = false;  ///< The records used are few, and differ by more than their noise explains.
   bool hasRecord = false;     ///< A record lies at this very place.
   float closest = kInfinity;  ///< Least closest distance of the records used.
   /// A lower bound of the heights of the occluders over the records used. `closest` may be less: a record beside an

@@ -215,7 +215,8 @@ struct IrradianceCache::Impl {
       out.E = glm::max(vec3(0.0f), corrected(out.E, mean, {}));
       if (!light.empty()) out.E = vec3(glm::greaterThan(out.E, vec3(0.0f))) * corrected(otherE, other, light);
     }
-    out.inconsistent = worst != Disagreement::None && disagreements.limit(worst, nearest, pixelSize) <= nearest;
+    out.inconsistent = worst != Disagreement::None && candidates.size() < Disagreements::kCrowd &&
+                       disagreements.limit(worst, nearest, pixelSize) <= nearest;
     for (vec3& d : out.dominant) d = normalizeOr(d, n);
     return out;
   }

@@ -6,8 +6,8 @@ namespace tomales {
 namespace {
 
 constexpr uint32_t kInner = ~uint32_t{0};
-constexpr size_t kFew = 6;     ///< A list of so few records is not worth dividing.
-constexpr int kDeepest = 20;   ///< Bounds the memory where records lie at one place.
+constexpr size_t kFew = 6;    ///< A list of so few records is not worth dividing.
+constexpr int kDeepest = 20;  ///< Bounds the memory where records lie at one place.
 /// Cells are not divided below this share of the least reach of their records: most of these reach all of the cell.
 constexpr float kCellOfReach = 0.5f;
 

@@ -13,6 +13,10 @@ enum class Disagreement { None, Steep, Discontinuous };
 
 class Disagreements {
  public:
+  /// So many records at a point disagree by chance: few of their rays have found light, and their noise seems less than
+  /// it is. One more record would hardly change their mean.
+  static constexpr size_t kCrowd = 32;
+
   Disagreements(bool on, PublishedEquations equations, float kappa)
       : on_(on),
         tolerance_((equations == PublishedEquations::SplitSphere ? kSplitSphereKappa * kDisagreement : kDisagreement) /

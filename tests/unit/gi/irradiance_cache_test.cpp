@@ -324,6 +324,17 @@ TEST(IrradianceCache, NoiseIsNoDisagreement) {
   EXPECT_GT(between.E.x, 1.1f);
 }
 
+TEST(IrradianceCache, AFewRecordsThatDisagreeWantAnotherOneAndACrowdOfThemDoesNot) {
+  for (const uint32_t count : {10u, 60u}) {
+    IrradianceCache cache(kBox, {ErrorFunction::Screen, 1});
+    for (uint32_t i = 0; i < count; ++i)  // Every fifth record has found light.
+      cache.restore(recordAt(0.02f * randomIn(i, 1) * vec3(1, 1, 0), vec3(i % 5 == 0 ? 1.0f : 0.0f)));
+    const IrradianceEstimate seen = cache.lookup(vec3(0), kUp, 0.01f);
+    EXPECT_GT(seen.weight, 1);
+    EXPECT_EQ(seen.inconsistent, count == 10);
+  }
+}
+
 TEST(IrradianceCache, TheHessianReachesAsFarAsLightIsSmoothButNotPastWhatItSees) {
   const CacheSettings hessian{ErrorFunction::Hessian, 1, 40};
   IrradianceRecord r = recordAt(vec3(0), vec3(1), 0.5f);

@@ -58,7 +58,8 @@ TEST(RecordCells, APlaceOutsideOrOfLargerPixelsThanWasSaidHasNoList) {
 TEST(RecordCells, ManyRecordsAtOnePlaceAndNoRecordsAtAllHaveLists) {
   const auto noPixels = [](const Bound3&) { return 1.0f; };
   const RecordReach same{vec3(0.3f), {0, 0, 1}, 1e-9f, kInfinity, 0, 0};
-  const RecordCells crowded(kAroundWall, std::vector(50, same), reachOf, noPixels), empty(kAroundWall, {}, reachOf, noPixels);
+  const RecordCells crowded(kAroundWall, std::vector(50, same), reachOf, noPixels),
+      empty(kAroundWall, {}, reachOf, noPixels);
   EXPECT_EQ(crowded.find(vec3(0.3f), 1)->size(), 50u);
   EXPECT_EQ(crowded.find(vec3(-0.3f), 1)->size(), 0u);
   EXPECT_EQ(empty.find(vec3(0.3f), 1)->size(), 0u);
