@@ -1,8 +1,8 @@
 // Noun: an irradiance cache. It holds records with position, normal, E, gradients and dominant directions in an octree;
-// an error function says how far each may be used. It needs reyes/base alone.
-// Irradiance: E here is irradiance / pi (the RSL convention), as everywhere behind indirectDiffuse().
-// Space: that of the caller, the same for insert and lookup. Threads: lookups are concurrent and lock-free as long as
-// nobody inserts.
+// an error function says how far each may be used. Equations are those of Tabellion and Lamorlette 2004, "An
+// Approximate Global Illumination System for Computer Generated Films". It needs reyes/base alone. Irradiance: E here
+// is irradiance / pi (the RSL convention), as everywhere behind indirectDiffuse(). Space: that of the caller, the same
+// for insert and lookup. Threads: lookups are concurrent and lock-free as long as nobody inserts.
 #pragma once
 #include <functional>
 #include <memory>

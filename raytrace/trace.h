@@ -1,5 +1,5 @@
-// Composer: rays against a coarse tessellation of the scene (Embree), with the hit-list origin offset of
-// "An Approximate Global Illumination System", section 4.3:
+// Composer: rays against a coarse tessellation of the scene (Embree), with the hit-list origin offset of Tabellion and
+// Lamorlette 2004, section 4.3:
 //   1 record the hits within the offset distance, before and after the origin
 //   2 stop at the first hit beyond it
 //   3 the recorded hit closest to the origin, if any, is the new origin

@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: extrapolates the E/pi of records to other places.
+// Private to gi/cache: extrapolates the E/pi of records to other places.
 #pragma once
 #include "gi/cache/irradiance_record.h"
 

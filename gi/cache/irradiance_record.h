@@ -1,5 +1,6 @@
-// Noun: the irradiance that arrives at one point, and how it changes around it. It needs reyes/base alone. Irradiance:
-// E here is irradiance / pi (the RSL convention). Space: that of the caller.
+// Noun: the irradiance that arrives at one point, and how it changes around it. Equations are those of Tabellion and
+// Lamorlette 2004. It needs reyes/base alone. Irradiance: E here is irradiance / pi (the RSL convention). Space: that
+// of the caller.
 #pragma once
 #include <algorithm>
 #include <span>

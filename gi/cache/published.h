@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: the published rules of how far a record may be used, and nothing else. The amendments
+// Private to gi/cache: the published rules of how far a record may be used, and nothing else. The amendments
 // of this renderer are in gi/cache/amendments. Each type has the radius of a record, times kappa, before the size of
 // pixels limits it; the weight of a record at a point; and the least cosine between normals that has a weight.
 // `position`: the distance to the record over its radius; `angle`: sqrt(1 - n.ni).

@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et
+// Private to gi/cache: an octree of numbered records. Each lies in the node that matches its radius (Ward et
 // al. 1988). The radius within which a record is valid depends on the lookup (Tabellion and Lamorlette 2004, eq. 3) and
 // grows with the record's size, so each node knows the size of its largest record. A lookup passes by many records that
 // do not reach it. So the tree keeps what tells that, and the records themselves, which are ten times as large, stay

@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: the records that may serve some of the places of a run of lookups, as arrays, so that
+// Private to gi/cache: the records that may serve some of the places of a run of lookups, as arrays, so that
 // vector instructions compare each place with all of them. Space: that of the cache.
 #pragma once
 #include <algorithm>

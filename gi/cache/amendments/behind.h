@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: a point behind the record sees other things than the record did. Ward et al. (1988,
+// Private to gi/cache: a point behind the record sees other things than the record did. Ward et al. (1988,
 // section 4) end the record there at once. Bumps that rays do not see would then tear the light. So here the record
 // fades out within the height of such bumps, and within less than a pixel where there are none. Light at contacts has a
 // twentieth less error than without this amendment. No cost was measured.

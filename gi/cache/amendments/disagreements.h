@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: two records that disagree about a place, by more than their noise explains, end
+// Private to gi/cache: two records that disagree about a place, by more than their noise explains, end
 // before each other. A point at which its records disagree gets a record of its own. Between such records lies an edge
 // of light, or something thinner than they are wide. Without this amendment, twice as many dark pixels behind thin
 // walls get light, and the worst windows have a third more error. It costs a twentieth more records and a twentieth

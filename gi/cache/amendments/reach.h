@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: where light is even, records serve farther when points are shaded than they did when
+// Private to gi/cache: where light is even, records serve farther when points are shaded than they did when
 // records were placed. More records then overlap at each point, which averages their noise and their seams: light along
 // grazing views has a tenth less error. It costs a fiftieth of the time of a gathered picture, and no further records.
 // The radius does not grow where light is steep, because a shadow's edge may lie beyond (docs/decisions/0103).

@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: each record is extrapolated by its own gradient. Where the light is curved, the mean
+// Private to gi/cache: each record is extrapolated by its own gradient. Where the light is curved, the mean
 // of the records is off, and the differences of their gradients tell by how much. Here the mean is corrected to the
 // second order, without any derivative that records do not have. The error of all scenes falls by a fortieth, that at
 // thin walls by an eighth. No cost was measured (docs/decisions/0096, docs/decisions/0105).

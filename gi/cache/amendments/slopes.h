@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: derivatives hold near the record alone, so each may at most double or extinguish E
+// Private to gi/cache: derivatives hold near the record alone, so each may at most double or extinguish E
 // over the validity radius. A ray that meets a surface at a tiny distance gives a gradient of any size: without this,
 // corners are millions of times too bright. No cost was measured.
 #pragma once
