@@ -197,4 +197,27 @@ void traceForShader(const GiState& state, const ShadePoints& points, const uint8
   rays.trace();
 }
 
+bool crossVolumesBefore(const GiState& state, const ShadePoints& points, const ShadeContext& context,
+                        ShadedPoints& out) {
+  const RayTools* tools = state.rays();
+  if (!tools || !tools->rays->hasVolumes()) return false;
+  std::vector<Ray> rays;
+  std::vector<SampleName> names;
+  for (int i = 0; i < points.count(); ++i) {
+    const vec3 I = points.get3(kIx, i), eye = points.position(i) - I;
+    rays.push_back({.origin = eye, .direction = normalizeOr(I, vec3(0, 0, 1)), .tMax = glm::length(I)});
+    rays.back().time = points.channel(kTime)[i];
+    names.push_back(points.name(i));
+  }
+  const std::vector<Hit> nothing(rays.size());  // all rays end at their tMax
+  HitAnswers answers;
+  answers.color.assign(rays.size(), vec3(0));
+  answers.opacity.assign(rays.size(), vec3(0));
+  tools->rays->throughVolumes(rays, nothing, names, kMaskCamera, *tools->shading, context, answers);
+  out.resize(points.count());
+  for (int i = 0; i < points.count(); ++i)
+    out.set(i, answers.color[static_cast<size_t>(i)], answers.opacity[static_cast<size_t>(i)]);
+  return true;
+}
+
 }  // namespace tomales

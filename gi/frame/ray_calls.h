@@ -16,4 +16,7 @@ std::optional<ShadeContext> contextOfHits(const GiState&, const ShadePoints&, co
 void traceForShader(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 P, TmConstVec3 direction,
                     const RayQuery&, const ShadeContext&, const RayResult&);
 
+/// Implements ShadeServices::volumesBefore().
+bool crossVolumesBefore(const GiState&, const ShadePoints&, const ShadeContext&, ShadedPoints& out);
+
 }  // namespace tomales

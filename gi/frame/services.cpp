@@ -44,7 +44,7 @@ GiServices::GiServices(const Scene& scene, const Camera& camera, const RayScene&
 
 GiServices::GiServices(const Scene& scene, const Camera& camera, RaySource rays, const ShadingSystem& shading,
                        const GiSettings& settings, Stats& stats)
-    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats, nullptr, {}, {}}}) {}
+    : impl_(new Impl{{scene, camera, std::move(rays), shading, settings, stats}}) {}
 
 GiServices::~GiServices() = default;
 
@@ -126,28 +126,7 @@ void GiServices::trace(const ShadePoints& points, const uint8_t* active, TmConst
 }
 
 bool GiServices::volumesBefore(const ShadePoints& points, const ShadeContext& context, ShadedPoints& out) const {
-  const RayTools* tools = impl_->rays();
-  if (!tools || !tools->rays->hasVolumes()) return false;
-  std::vector<Ray> rays;
-  std::vector<Hit> hits;
-  std::vector<SampleName> names;
-  for (int i = 0; i < points.count(); ++i) {
-    const vec3 I = points.get3(kIx, i), P = points.position(i);
-    rays.push_back({P - I, normalizeOr(I, vec3(0, 0, 1))});
-    rays.back().time = points.channel(kTime)[i];
-    Hit& end = hits.emplace_back();
-    end.object = 0;
-    end.t = glm::length(I);
-    names.push_back(points.name(i));
-  }
-  HitAnswers answers;
-  answers.color.assign(rays.size(), vec3(0));
-  answers.opacity.assign(rays.size(), vec3(0));
-  tools->rays->throughVolumes(rays, hits, names, kMaskCamera, *tools->shading, context, answers);
-  out.resize(points.count());
-  for (int i = 0; i < points.count(); ++i)
-    out.set(i, answers.color[static_cast<size_t>(i)], answers.opacity[static_cast<size_t>(i)]);
-  return true;
+  return crossVolumesBefore(*impl_, points, context, out);
 }
 
 bool GiServices::sampleEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
