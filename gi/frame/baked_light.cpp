@@ -122,7 +122,7 @@ void bakedIndirect(const GiState& state, const ShadePoints& points, const uint8_
         state.atlas ? state.atlas->bakedOverPi(points.group(), points.position(i), n, radius) : std::nullopt;
     ++lookups;
     found += light.has_value();
-    store(out, i, light.value_or(vec3(0.0f)), dominant);
+    setIndirect(out, i, light.value_or(vec3(0.0f)), dominant);
   }
   state.stats.irradianceCache.lookups += lookups;
   state.stats.irradianceCache.interpolated += found;

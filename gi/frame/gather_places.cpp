@@ -82,8 +82,4 @@ void GatherPlaces::startRay(const RayScene& rays, int i, float time, Ray& ray) c
   ray.origin = rays.placeAt(points_.group(), named(positions_, i), vec3(0), time);
 }
 
-vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i) {
-  return normalizeOr({N.x[i], N.y[i], N.z[i]}, points.facingNormal(i));
-}
-
 }  // namespace tomales

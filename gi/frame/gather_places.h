@@ -5,9 +5,6 @@
 
 namespace tomales {
 
-/// Returns the unit normal that a shader asks with; the one facing the eye if it has none.
-vec3 unitNormal(const ShadePoints& points, TmConstVec3 N, int i);
-
 /// Root of the area that a pixel projects onto the plane through P with unit normal n (Tabellion and Lamorlette 2004,
 /// section 4.5).
 float projectedPixelSize(const Camera&, const vec3& P, const vec3& n);

@@ -92,22 +92,22 @@ CacheKey cacheKeyFor(const GiState& state, int group, const HemisphereQuery& que
   return key;
 }
 
-bool interpolateHemisphere(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                           const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) {
+bool interpolateHemisphere(const GiState& state, const AskedPoints& asked, const HemisphereQuery& query,
+                           const ShadeContext& context, TmVec3 out) {
   if (!keepsHemispheres(state.settings)) return false;
   if (context.purpose == Purpose::Rehearsal) {
-    auto& asked = state.hemispheresAsked[static_cast<size_t>(points.group())];
-    if (std::find(asked.begin(), asked.end(), query) == asked.end()) asked.push_back(query);
+    auto& known = state.hemispheresAsked[static_cast<size_t>(asked.group())];
+    if (std::find(known.begin(), known.end(), query) == known.end()) known.push_back(query);
     return true;
   }
   // Records without shares do not know whose light they hold.
   if (query.radiance && context.onlyLightGroup && state.groups.empty()) return false;
-  CacheKey key = cacheKeyFor(state, points.group(), query);
+  CacheKey key = cacheKeyFor(state, asked.group(), query);
   const auto prepared = preparedFor(state, key);
   if (prepared == state.caches.end()) return false;
   if (context.redrawn) key.gather.seed = hashCombine(key.gather.seed, randomStream("alon"));
-  const GatherPlaces places(state, points);
-  const BatchLookup found = lookUp(state, &*prepared, places, points, active, N, context);
+  const GatherPlaces places(state, asked.points);
+  const BatchLookup found = lookUp(state, &*prepared, places, asked, context);
   for (size_t k = 0; k < found.points.size(); ++k) {
     const int i = found.points[k];
     vec3 E = found.known[k].E;

@@ -12,7 +12,6 @@ void learnHemisphereQueries(GiState&, const DeepFrame& layout, const TileReader&
 CacheKey cacheKeyFor(const GiState&, int group, const HemisphereQuery&);
 
 /// Implements ShadeServices::interpolatedHemisphere().
-bool interpolateHemisphere(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N,
-                           const HemisphereQuery&, const ShadeContext&, TmVec3 out);
+bool interpolateHemisphere(const GiState&, const AskedPoints&, const HemisphereQuery&, const ShadeContext&, TmVec3 out);
 
 }  // namespace tomales

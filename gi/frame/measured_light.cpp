@@ -69,15 +69,15 @@ int64_t countPhotons(const PhotonSources& sources, const std::vector<PhotonPass>
   return sent;
 }
 
-MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const ShadePoints& points, TmConstVec3 N,
-                         int i, int bounces) {
+MeasurementPoint pointAt(const RayScene& rays, const GatherPlaces& places, const AskedPoints& asked, int i,
+                         int bounces) {
   const GatherPoint at = places.at(i);
   // A hair may have the light of its root. Then the area of a pixel at the root stands for that of the micropolygon.
-  const bool own = at.position == points.position(i);
-  const float area = own ? points.channel(kArea)[i] : at.pixelSize * at.pixelSize;
+  const bool own = at.position == asked.points.position(i);
+  const float area = own ? asked.points.channel(kArea)[i] : at.pixelSize * at.pixelSize;
   Ray leaving{at.position, at.normal};
   rays.prepareOrigin(at.group, at.position, at.edgeLength, leaving);
-  const vec3 n = dot(unitNormal(points, N, i), at.normal) < 0 ? -at.normal : at.normal;
+  const vec3 n = dot(asked.normal(i), at.normal) < 0 ? -at.normal : at.normal;
   return {at.position, n, std::sqrt(std::max(area, 1e-20f) / kPi), leaving.offset, bounces};
 }
 
@@ -145,28 +145,28 @@ void measureLight(GiState& state, const DeepFrame& layout, const TileReader& til
   }
 }
 
-bool noteMeasured(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, int bounces,
-                  const ShadeContext& context, const IndirectResult& out) {
+bool noteMeasured(const GiState& state, const AskedPoints& asked, int bounces, const ShadeContext& context,
+                  const IndirectResult& out) {
   if (!state.measured || !state.measured->isNoting()) return false;
   const RayTools* tools = state.rays();
-  const GatherPlaces places(state, points);
-  for (int i = 0; i < points.count(); ++i) {
-    if (!active[i]) continue;
-    const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};
-    store(out, i, vec3(0.0f), dominant);
-    if (context.diffuseDepth == 0) state.measured->note(pointAt(*tools->rays, places, points, N, i, bounces));
+  const GatherPlaces places(state, asked.points);
+  for (int i = 0; i < asked.count(); ++i) {
+    if (!asked.active[i]) continue;
+    const vec3 n = asked.points.facingNormal(i), dominant[3] = {n, n, n};
+    setIndirect(out, i, vec3(0.0f), dominant);
+    if (context.diffuseDepth == 0) state.measured->note(pointAt(*tools->rays, places, asked, i, bounces));
   }
   return true;
 }
 
-void addMeasured(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N, int bounces,
-                 const ShadeContext& context, const IndirectResult& out) {
+void addMeasured(const GiState& state, const AskedPoints& asked, int bounces, const ShadeContext& context,
+                 const IndirectResult& out) {
   const RayTools* tools = state.measured && context.diffuseDepth == 0 ? state.rays() : nullptr;
   if (!tools) return;
-  const GatherPlaces places(state, points);
-  for (int i = 0; i < points.count(); ++i) {
-    if (!active[i]) continue;
-    const vec3 E = state.measured->overPi(pointAt(*tools->rays, places, points, N, i, bounces));
+  const GatherPlaces places(state, asked.points);
+  for (int i = 0; i < asked.count(); ++i) {
+    if (!asked.active[i]) continue;
+    const vec3 E = state.measured->overPi(pointAt(*tools->rays, places, asked, i, bounces));
     out.E.x[i] += E.x;
     out.E.y[i] += E.y;
     out.E.z[i] += E.z;

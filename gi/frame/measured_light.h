@@ -6,6 +6,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "gi/frame/asked_points.h"
 #include "gi/photons/measurement.h"
 #include "gi/services.h"
 #include "reyes/base/checkpoint.h"
@@ -43,10 +44,8 @@ void measureLight(GiState&, const DeepFrame& layout, const TileReader&, const st
                   StopToken stop);
 /// Notes the places while measureLight() asks for them, and answers that they are dark. Returns false at any other
 /// time.
-bool noteMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
-                  const ShadeContext&, const IndirectResult& out);
+bool noteMeasured(const GiState&, const AskedPoints&, int bounces, const ShadeContext&, const IndirectResult& out);
 /// Adds what has been measured to E, where the eye looks and by mirrors and glass.
-void addMeasured(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, int bounces,
-                 const ShadeContext&, const IndirectResult& out);
+void addMeasured(const GiState&, const AskedPoints&, int bounces, const ShadeContext&, const IndirectResult& out);
 
 }  // namespace tomales

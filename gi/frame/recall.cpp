@@ -84,9 +84,8 @@ IndirectAnswer gatherOrRecall(const GiState& state, const GatherPoint& point, co
 }
 
 BatchLookup recallOrLookUp(const GiState& state, const PreparedCache& prepared, const GatherPlaces& places,
-                           const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                           const ShadeContext& context) {
-  BatchLookup out = placesOf(places, points, active, N);
+                           const AskedPoints& asked, const ShadeContext& context) {
+  BatchLookup out = placesOf(places, asked);
   auto& known = context.answers->interpolated;
   std::vector<uint64_t> names;
   for (const IrradiancePlace& at : out.at) names.push_back(hashOf(state, prepared, at));
@@ -100,7 +99,7 @@ BatchLookup recallOrLookUp(const GiState& state, const PreparedCache& prepared, 
     }
     return out;
   }
-  out = lookUp(state, &prepared, places, points, active, N, context);
+  out = lookUp(state, &prepared, places, asked, context);
   for (size_t k = 0; k < names.size(); ++k) {
     const IrradianceEstimate& e = out.known[k];
     known[names[k]].reset();

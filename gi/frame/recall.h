@@ -7,8 +7,8 @@ namespace tomales {
 
 /// Does the same as lookUp(), but without the cache if context.answers, which must not be null, holds an answer for
 /// each place.
-BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPlaces&, const ShadePoints&,
-                           const uint8_t* active, TmConstVec3 N, const ShadeContext&);
+BatchLookup recallOrLookUp(const GiState&, const PreparedCache&, const GatherPlaces&, const AskedPoints&,
+                           const ShadeContext&);
 
 /// Gathers at a point that no record serves, or takes the recorded answer if `answers` has one.
 IndirectAnswer gatherOrRecall(const GiState&, const GatherPoint&, const GatherSettings&, RayAnswers* answers);

@@ -73,20 +73,20 @@ std::optional<vec3> gatheredOverPi(const GiState& state, const GatherPoint& at) 
   return estimate.E + causticOverPi(state, at.group, at.position, at.normal, at.pixelSize);
 }
 
-BatchLookup placesOf(const GatherPlaces& places, const ShadePoints& points, const uint8_t* active, TmConstVec3 N) {
+BatchLookup placesOf(const GatherPlaces& places, const AskedPoints& asked) {
   BatchLookup out;
-  for (int i = 0; i < points.count(); ++i)
-    if (active[i]) {
+  for (int i = 0; i < asked.count(); ++i)
+    if (asked.active[i]) {
       out.points.push_back(i);
-      out.at.push_back(places.lookupAt(i, unitNormal(points, N, i)));
+      out.at.push_back(places.lookupAt(i, asked.normal(i)));
     }
   out.known.resize(out.at.size());
   return out;
 }
 
 BatchLookup lookUp(const GiState& state, const PreparedCache* prepared, const GatherPlaces& places,
-                   const ShadePoints& points, const uint8_t* active, TmConstVec3 N, const ShadeContext& context) {
-  BatchLookup out = placesOf(places, points, active, N);
+                   const AskedPoints& asked, const ShadeContext& context) {
+  BatchLookup out = placesOf(places, asked);
   if (!prepared) return out;
   prepared->cache.lookup(out.at, out.known.data(), kServesWider, lightOf(state, *prepared, context));
   const auto served =

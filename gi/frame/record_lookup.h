@@ -12,11 +12,11 @@ struct BatchLookup {
 };
 
 /// prepared: one of state.caches, or null, which knows nothing. Counts lookups and hits.
-BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const ShadePoints&,
-                   const uint8_t* active, TmConstVec3 N, const ShadeContext&);
+BatchLookup lookUp(const GiState&, const PreparedCache* prepared, const GatherPlaces&, const AskedPoints&,
+                   const ShadeContext&);
 
 /// Returns the places where the active points look, with no answer yet.
-BatchLookup placesOf(const GatherPlaces&, const ShadePoints&, const uint8_t* active, TmConstVec3 N);
+BatchLookup placesOf(const GatherPlaces&, const AskedPoints&);
 
 /// Returns the light of a cache's records under the gains; empty if the gains do not change it.
 std::span<const IrradianceExpansion> mixedLight(const GiState&, size_t cache);

@@ -30,23 +30,23 @@ struct PathSum {
 // well.
 class PathBatches {
  public:
-  PathBatches(const GiState& state, const RayTools& tools, const ShadePoints& points, TmConstVec3 N,
-              const IndirectQuery& query, const ShadeContext& hitContext)
+  PathBatches(const GiState& state, const RayTools& tools, const AskedPoints& asked, const IndirectQuery& query,
+              const ShadeContext& hitContext)
       : state_(state),
         tools_(tools),
-        points_(points),
-        places_(state, points),
-        N_(N),
+        asked_(asked),
+        points_(asked.points),
+        places_(state, asked.points),
         maxDistance_(query.maxDistance),
         context_(hitContext) {
-    const Attributes& own = *state.scene.groups[static_cast<size_t>(points.group())].attributes;
+    const Attributes& own = *state.scene.groups[static_cast<size_t>(asked.group())].attributes;
     filter_.groups = tools.rays->groupsIn(own.trace.subsetFor(query.subset), "");
   }
 
   void add(PathSum& sum, int paths) {
     if (stopRequested()) return;  // a bucket of many paths takes long, and a stopped one is dropped (reyes/frame.h)
     const int i = sum.point;
-    const vec3 normal = places_.shading(i, unitNormal(points_, N_, i));
+    const vec3 normal = places_.shading(i, asked_.normal(i));
     vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);
     // The hits of one record share a key and continue each other's sequence.
@@ -123,9 +123,9 @@ class PathBatches {
 
   const GiState& state_;
   const RayTools& tools_;
+  const AskedPoints asked_;
   const ShadePoints& points_;
   const GatherPlaces places_;
-  const TmConstVec3 N_;
   const float maxDistance_;
   const ShadeContext context_;
   RayFilter filter_;
@@ -149,8 +149,8 @@ ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, i
 
 }  // namespace
 
-void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
-                   const IndirectQuery& query, const ShadeContext& context, int bounces, const IndirectResult& out) {
+void traceIndirect(const GiState& state, const AskedPoints& asked, const IndirectQuery& query,
+                   const ShadeContext& context, int bounces, const IndirectResult& out) {
   const RayTools* tools = state.rays();
   if (!tools) return;
   // Paths branch at the eye's points alone; a hit continues because its own shader asks for indirect light
@@ -158,16 +158,16 @@ void traceIndirect(const GiState& state, const ShadePoints& points, const uint8_
   const int paths = context.diffuseDepth > 0 ? 1
                     : context.auditPaths > 0
                         ? context.auditPaths
-                        : shareOfBranch(cacheKeyFor(state, points.group(), query).gather.samples, 1, context);
-  PathBatches batches(state, *tools, points, N, query, contextOfPaths(state, context, bounces));
+                        : shareOfBranch(cacheKeyFor(state, asked.group(), query).gather.samples, 1, context);
+  PathBatches batches(state, *tools, asked, query, contextOfPaths(state, context, bounces));
   std::vector<PathSum> sums;
-  for (int i = 0; i < points.count(); ++i)
-    if (active[i]) sums.push_back({i});
+  for (int i = 0; i < asked.count(); ++i)
+    if (asked.active[i]) sums.push_back({i});
   for (PathSum& sum : sums) batches.add(sum, paths);
   batches.flush();
   for (PathSum& sum : sums) {
-    for (vec3& d : sum.directions) d = normalizeOr(d, unitNormal(points, N, sum.point));
-    store(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
+    for (vec3& d : sum.directions) d = normalizeOr(d, asked.normal(sum.point));
+    setIndirect(out, sum.point, sum.radiance / static_cast<float>(paths), sum.directions);
   }
 }
 
@@ -175,7 +175,7 @@ void traceAlong(const GiState& state, const ShadePoints& points, const uint8_t* 
                 const IndirectQuery& query, const ShadeContext& context, int bounces, TmVec3 out) {
   const RayTools* tools = state.rays();
   if (!tools) return;
-  PathBatches batches(state, *tools, points, way.L, query, contextOfPaths(state, context, bounces));
+  PathBatches batches(state, *tools, {points, active, way.L}, query, contextOfPaths(state, context, bounces));
   std::vector<PathSum> sums;
   for (int i = 0; i < points.count(); ++i)
     if (active[i]) sums.push_back({i});
@@ -204,7 +204,7 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
       state.scene.groups[static_cast<size_t>(points.group())].attributes->photon.causticMap.empty();
   context.highlights = highlightsOfHits(context.specularRaysSeeLights);
   context.diffuseLimit = 0;
-  PathBatches batches(state, *tools, points, {n[0], n[1], n[2]}, {}, context);
+  PathBatches batches(state, *tools, {points, nullptr, {n[0], n[1], n[2]}}, {}, context);
   for (PathSum& sum : sums) batches.add(sum, 1);
   batches.flush();
   for (const PathSum& sum : sums) {

@@ -5,8 +5,8 @@
 namespace tomales {
 
 /// Implements indirectDiffuse(). Pre: the light may still bounce at these points.
-void traceIndirect(const GiState&, const ShadePoints&, const uint8_t* active, TmConstVec3 N, const IndirectQuery&,
-                   const ShadeContext&, int bounces, const IndirectResult& out);
+void traceIndirect(const GiState&, const AskedPoints&, const IndirectQuery&, const ShadeContext&, int bounces,
+                   const IndirectResult& out);
 /// Implements ShadeServices::indirectAlong(). Pre: the same.
 void traceAlong(const GiState&, const ShadePoints&, const uint8_t* active, const LobeDirection&, const IndirectQuery&,
                 const ShadeContext&, int bounces, TmVec3 out);

@@ -189,7 +189,7 @@ void GiServices::storedIrradiance(const ShadePoints& points, const uint8_t* acti
 
 bool GiServices::interpolatedHemisphere(const ShadePoints& points, const uint8_t* active, TmConstVec3 N,
                                         const HemisphereQuery& query, const ShadeContext& context, TmVec3 out) const {
-  return context.auditPaths == 0 && interpolateHemisphere(*impl_, points, active, N, query, context, out);
+  return context.auditPaths == 0 && interpolateHemisphere(*impl_, {points, active, N}, query, context, out);
 }
 
 float GiServices::emitterReach(int light) const {
@@ -211,22 +211,22 @@ void GiServices::indirectDiffuse(const ShadePoints& points, const uint8_t* activ
                                  const IndirectQuery& query, const ShadeContext& context, IndirectResult out) const {
   const bool audit = context.auditPaths > 0, counted = impl_->settings.mode == GiMode::Progressive;
   if (impl_->settings.mode == GiMode::Baked && !audit) return bakedIndirect(*impl_, points, active, out);
+  const AskedPoints asked{points, active, N};
   const int bounces = audit ? auditBouncesFor(*impl_, query) : bouncesFor(*impl_, query);
-  if (noteMeasured(*impl_, points, active, N, bounces, context, out)) return;
+  if (noteMeasured(*impl_, asked, bounces, context, out)) return;
   if (context.diffuseDepth < bounces && (audit || !counted)) {
     const bool cached = interpolatesIndirect(*impl_) && !audit;
-    if (cached && context.diffuseDepth > 0)
-      return bounceIndirect(*impl_, points, active, N, query, context, bounces, out);
-    if (cached) return interpolateIndirect(*impl_, points, active, N, query, context, out);
-    traceIndirect(*impl_, points, active, N, query, context, bounces, out);
-    if (!counted) addMeasured(*impl_, points, active, N, bounces, context, out);
+    if (cached && context.diffuseDepth > 0) return bounceIndirect(*impl_, asked, query, context, bounces, out);
+    if (cached) return interpolateIndirect(*impl_, asked, query, context, out);
+    traceIndirect(*impl_, asked, query, context, bounces, out);
+    if (!counted) addMeasured(*impl_, asked, bounces, context, out);
     return;
   }
   for (int i = 0; i < points.count(); ++i) {
     const vec3 n = points.facingNormal(i), dominant[3] = {n, n, n};
-    if (active[i]) store(out, i, vec3(0.0f), dominant);
+    if (active[i]) setIndirect(out, i, vec3(0.0f), dominant);
   }
-  addMeasured(*impl_, points, active, N, bounces, context, out);
+  addMeasured(*impl_, asked, bounces, context, out);
 }
 
 bool GiServices::followsLobes(const ShadeContext& context) const {

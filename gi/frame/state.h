@@ -1,5 +1,6 @@
 // Private to gi: the members of GiServices, and the parts that it is made of. Space: current. Irradiance: E/pi.
 #pragma once
+#include "gi/frame/asked_points.h"
 #include "gi/frame/learnt_light.h"
 #include "gi/frame/measured_light.h"
 #include "gi/services.h"
