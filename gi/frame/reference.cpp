@@ -137,7 +137,11 @@ class PathBatches {
 
 ShadeContext contextOfPaths(const GiState& state, const ShadeContext& context, int bounces) {
   const int depth = context.diffuseDepth + 1;
-  ShadeContext out{RayKind::Diffuse, depth, context.seed, 1, depth < bounces};
+  ShadeContext out{.kind = RayKind::Diffuse,
+                   .diffuseDepth = depth,
+                   .seed = context.seed,
+                   .lightSamples = 1,
+                   .indirect = depth < bounces};
   // The depth also limits wide lobes that shaders follow. Mirrors reflect as deep as their objects allow.
   out.diffuseLimit = bounces;
   out.highlights = HitHighlights::All;
@@ -198,7 +202,8 @@ void traceToStored(const GiState& state, const ShadePoints& points, const std::v
     for (int k = 0; k < 3; ++k) n[k][i] = facing[k];
     sums.push_back({i});
   }
-  ShadeContext context{RayKind::Diffuse, 1, state.settings.seed, 1, false};
+  ShadeContext context{
+      .kind = RayKind::Diffuse, .diffuseDepth = 1, .seed = state.settings.seed, .lightSamples = 1, .indirect = false};
   context.illumination = Illumination::LightsAndStored;
   context.specularRaysSeeLights =
       state.scene.groups[static_cast<size_t>(points.group())].attributes->photon.causticMap.empty();

@@ -98,7 +98,11 @@ void GatherRays::uncover(Stats& stats, std::vector<vec3>& radiance, FirstHits* f
 }
 
 void GatherRays::shade(Stats& stats, SeenLight& seen, FirstHits* first) {
-  ShadeContext context{RayKind::Diffuse, settings_.depth, settings_.seed, 1, settings_.indirect};
+  ShadeContext context{.kind = RayKind::Diffuse,
+                       .diffuseDepth = settings_.depth,
+                       .seed = settings_.seed,
+                       .lightSamples = 1,
+                       .indirect = settings_.indirect};
   context.illumination = settings_.light;
   context.specularRaysSeeLights = settings_.specularRaysSeeLights;
   context.highlights = highlightsOfHits(settings_.specularRaysSeeLights);

@@ -36,7 +36,7 @@ vec3 towards(const vec3& normal, const vec3& local) {
 
 std::vector<vec3> emittedRadiance(const RayScene& rays, const ShadingSystem& shading, const std::vector<Ray>& from,
                                   const std::vector<Hit>& hits, const std::vector<SampleName>& names, uint32_t seed) {
-  ShadeContext context{RayKind::Diffuse, 1, seed, 1, false};
+  ShadeContext context{.kind = RayKind::Diffuse, .diffuseDepth = 1, .seed = seed, .lightSamples = 1, .indirect = false};
   context.illumination = Illumination::None;
   std::vector<vec3> out;
   rays.shadeHits(from, hits, names, shading, context, out);

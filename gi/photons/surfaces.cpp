@@ -39,7 +39,8 @@ std::optional<PhotonSurfaces::Answer> PhotonSurfaces::evenAnswer(int group) cons
 /// The reflected share is the radiance at E/pi = 1, less what is emitted.
 std::vector<PhotonSurfaces::Answer> PhotonSurfaces::ask(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
                                                         const std::vector<SampleName>& names) const {
-  ShadeContext context{RayKind::Diffuse, 1, seed_, 1, false};
+  ShadeContext context{
+      .kind = RayKind::Diffuse, .diffuseDepth = 1, .seed = seed_, .lightSamples = 1, .indirect = false};
   context.illumination = Illumination::Unit;
   HitQuestion question;
   question.mode = HitMode::Shader;
