@@ -18,7 +18,7 @@
 namespace tomales {
 
 /// Caustics are sharp, so every photon gets an estimate.
-constexpr PhotonIrradianceSettings kCausticIrradiance{50, 1};
+constexpr PhotonIrradianceSettings kCausticIrradiance{.every = 1};
 
 struct AtlasSettings {
   PhotonSettings photons;
@@ -53,14 +53,21 @@ void makeAtlasFolder(const std::filesystem::path& folder);  ///< Throws WriteErr
 
 using AtlasProgress = std::function<void(float)>;
 
+/// A scene whose atlas is made, and those who are told of the work. All that it refers to outlives it.
+struct AtlasWork {
+  RayTools tools;
+  const MapNames& names;
+  const AtlasSettings& settings;
+  AtlasProgress progress;  ///< May be empty.
+  Stats& stats;
+  Log& log;
+  const Scene& scene() const { return tools.rays->scene(); }
+};
+
 /// Traces photons into FOLDER, one file for each map. Throws FileError.
-PhotonFigures writePhotons(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays,
-                           const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
-                           const AtlasProgress& progress, Stats& stats, Log& log);
+PhotonFigures writePhotons(const std::filesystem::path& folder, const AtlasWork& work);
 /// Traces a part of the same photons into one file for all maps. Throws FileError.
-PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, const Scene& scene,
-                              const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
-                              const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log);
+PhotonFigures writePhotonPart(const std::filesystem::path& file, WorkPart part, const AtlasWork& work);
 /// Makes the files of writePhotons() from all parts. Throws FileError, also if a part belongs to another scene.
 void joinPhotonParts(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                      const MapNames& names, const AtlasSettings& settings, Stats& stats, Log& log);
@@ -85,14 +92,10 @@ MadeFrom pointsMadeFrom(const std::filesystem::path& path);
 bool hasPhotons(const std::filesystem::path& folder, const MapNames& names, const AtlasSettings& settings);
 /// Makes irradiance and brick maps from the photons in FOLDER/photons, for the maps of one part, unless they are there
 /// already. Throws FileError.
-void writeMaps(const std::filesystem::path& folder, WorkPart part, const Scene& scene, const RayScene& rays,
-               const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
-               Log& log);
+void writeMaps(const std::filesystem::path& folder, WorkPart part, const AtlasWork& work);
 /// Makes all three kinds of files for a scene, as far as the folder does not hold them yet. Photons are traced again if
 /// the scene or their settings have changed, and groups that receive the same photons keep their maps. Throws
 /// FileError.
-void writeAtlas(const std::filesystem::path& folder, const Scene& scene, const RayScene& rays,
-                const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
-                const AtlasProgress& progress, Stats& stats, Log& log);
+void writeAtlas(const std::filesystem::path& folder, const AtlasWork& work);
 
 }  // namespace tomales

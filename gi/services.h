@@ -57,11 +57,6 @@ struct PhotonPasses {
 
 struct LearntLight;
 
-/// The objects that answer a ray.
-struct RayTools {
-  const RayScene* rays;
-  const ShadingSystem* shading;  ///< The shading of the scene that the rays meet.
-};
 /// Called when the first ray is wanted, from any thread: a shot from a file may never need its geometry. Null: the
 /// geometry cannot be had, which has been reported; rays then meet nothing.
 using RaySource = std::function<const RayTools*()>;

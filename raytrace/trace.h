@@ -204,4 +204,10 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The objects that answer a ray.
+struct RayTools {
+  const RayScene* rays;
+  const ShadingSystem* shading;  ///< The shading of the scene that the rays meet.
+};
+
 }  // namespace tomales

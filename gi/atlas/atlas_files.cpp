@@ -182,59 +182,59 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
   return true;
 }
 
-void writeMaps(const fs::path& folder, WorkPart part, const Scene& scene, const RayScene& rays, const MapNames& names,
-               const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats, Log& log) {
+void writeMaps(const fs::path& folder, WorkPart part, const AtlasWork& work) {
+  const AtlasSettings& settings = work.settings;
   const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
   makeAtlasFolder(irradiance);
   // If photons hold direct light too, hits have no other source of it. So they take whatever is stored near them, walls
   // or not.
-  const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(rays);
-  const ShownDisk shown = settings.photons.direct ? nullptr : shownBy(rays);  // few photons may then be a shadow
+  const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(*work.tools.rays);
+  const ShownDisk shown =
+      settings.photons.direct ? nullptr : shownBy(*work.tools.rays);  // few photons may then be a shadow
   size_t finished = 0;
   std::vector<MapFigures> made;
   int64_t kept = 0;
-  const std::set<std::string> maps = names.all();
+  const std::set<std::string> maps = work.names.all();
   for (const std::string& name : maps) {
     const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
                    bricks = atlasFile(folder, name, ".bkm");
     const bool caustic = name.ends_with(kCaustic),
                others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
     const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : settings.irradiance;
-    const SightAlongSurface seen = caustic || name == names.volume ? nullptr : sight;
+    const SightAlongSurface seen = caustic || name == work.names.volume ? nullptr : sight;
     EstimateFigures figures;  // stay empty if the estimates are kept, or made by another part
     if (!others) {
       if (pointsMadeFrom(points).inputs !=
           irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
-        const StageTimer timer(stats, "irradiance");
+        const StageTimer timer(work.stats, "irradiance");
         writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen, caustic ? ShownDisk() : shown);
       }
-      if (!renewIrradianceBricks(points, bricks, settings.bricks, stats)) ++kept;
+      if (!renewIrradianceBricks(points, bricks, settings.bricks, work.stats)) ++kept;
       returnFreeMemory();
     }
-    if (name != names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
+    if (name != work.names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
     const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
-    if (progress) progress(share);
+    if (work.progress) work.progress(share);
   }
-  stats.photons.groupsKept += kept;
-  warnOfEstimates(scene, names, made, log);
+  work.stats.photons.groupsKept += kept;
+  warnOfEstimates(work.scene(), work.names, made, work.log);
 }
 
-void writeAtlas(const fs::path& folder, const Scene& scene, const RayScene& rays, const ShadingSystem& shading,
-                const MapNames& names, const AtlasSettings& settings, const AtlasProgress& progress, Stats& stats,
-                Log& log) {
+void writeAtlas(const fs::path& folder, const AtlasWork& work) {
   constexpr float kShareOfPhotons = 0.6f;  // about this share of the time
-  const auto within = [&](float from, float to) -> AtlasProgress {
-    if (!progress) return {};
-    return [&progress, from, to](float share) { progress(from + (to - from) * share); };
+  const auto within = [&](float from, float to) {
+    AtlasWork stage = work;
+    if (work.progress) stage.progress = [&work, from, to](float share) { work.progress(from + (to - from) * share); };
+    return stage;
   };
   makeAtlasFolder(folder);
-  if (!hasPhotons(folder, names, settings)) {
-    const StageTimer timer(stats, "photons");
-    writePhotons(folder / "photons", scene, rays, shading, names, settings, within(0, kShareOfPhotons), stats, log);
+  if (!hasPhotons(folder, work.names, work.settings)) {
+    const StageTimer timer(work.stats, "photons");
+    writePhotons(folder / "photons", within(0, kShareOfPhotons));
   }
   returnFreeMemory();
-  writeMaps(folder, {}, scene, rays, names, settings, within(kShareOfPhotons, 1), stats, log);
-  if (settings.photons.direct) warnOfLeaks(folder, scene, rays, names, log);
+  writeMaps(folder, {}, within(kShareOfPhotons, 1));
+  if (work.settings.photons.direct) warnOfLeaks(folder, work.scene(), *work.tools.rays, work.names, work.log);
 }
 
 }  // namespace tomales

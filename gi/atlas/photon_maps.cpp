@@ -32,19 +32,17 @@ uint64_t partInputs(const MapNames& names, const AtlasSettings& settings, WorkPa
 /// change them.
 const std::vector<CloudChannel> kPartChannels = {{"power", 3}, {"photonnormal", 3}, {"map", 1}, kSurfaceChannel};
 
+/// Traces a part of the photons, and calls `put` with each for every map that holds it.
 template <class Put>
-PhotonFigures traceSorted(const Scene& scene, const RayScene& rays, const ShadingSystem& shading, const MapNames& names,
-                          const AtlasSettings& settings, const Put& put, const AtlasProgress& progress, Stats& stats,
-                          Log& log, WorkPart part) {
-  const PhotonSorter sorter(scene, names, settings.photons.mostBounces);
-  const PhotonFigures figures = tracePhotons(
-      scene, rays, shading, settings.photons,
-      [&](std::span<const StoredPhoton> photons) {
-        for (const StoredPhoton& p : photons) sorter.sort(p, put);
-      },
-      progress, stats, log, part);
-  stats.photons.emitted += figures.emitted;
-  stats.photons.stored += figures.stored;
+PhotonFigures traceSorted(const AtlasWork& work, WorkPart part, const Put& put) {
+  const PhotonSorter sorter(work.scene(), work.names, work.settings.photons.mostBounces);
+  const auto sort = [&](std::span<const StoredPhoton> photons) {
+    for (const StoredPhoton& p : photons) sorter.sort(p, put);
+  };
+  const PhotonFigures figures = tracePhotons(work.scene(), *work.tools.rays, *work.tools.shading, work.settings.photons,
+                                             sort, work.progress, work.stats, work.log, part);
+  work.stats.photons.emitted += figures.emitted;
+  work.stats.photons.stored += figures.stored;
   return figures;
 }
 
@@ -82,33 +80,28 @@ void PhotonMapFiles::finish(const MadeFrom& madeFrom, Log& log) {
   set.finish();
 }
 
-PhotonFigures writePhotons(const fs::path& folder, const Scene& scene, const RayScene& rays,
-                           const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
-                           const AtlasProgress& progress, Stats& stats, Log& log) {
+PhotonFigures writePhotons(const fs::path& folder, const AtlasWork& work) {
   makeAtlasFolder(folder);
   const FolderLock lock(folder, [&] {
-    log.report(Severity::Info, "photons-wait", {},
-               "waits for another program that writes photons to \"" + folder.string() + "\"");
+    work.log.report(Severity::Info, "photons-wait", {},
+                    "waits for another program that writes photons to \"" + folder.string() + "\"");
   });
-  PhotonMapFiles files(folder, names, settings.photons.direct);
-  const PhotonFigures figures = traceSorted(scene, rays, shading, names, settings,
-                                            [&](const MapPhoton& p) { files.add(p); }, progress, stats, log, {});
-  files.finish({settings.world, photonInputs(names, settings)}, log);
-  stats.photons.groups += static_cast<int64_t>(files.count());
+  PhotonMapFiles files(folder, work.names, work.settings.photons.direct);
+  const PhotonFigures figures = traceSorted(work, {}, [&](const MapPhoton& p) { files.add(p); });
+  files.finish({work.settings.world, photonInputs(work.names, work.settings)}, work.log);
+  work.stats.photons.groups += static_cast<int64_t>(files.count());
   return figures;
 }
 
-PhotonFigures writePhotonPart(const fs::path& file, WorkPart part, const Scene& scene, const RayScene& rays,
-                              const ShadingSystem& shading, const MapNames& names, const AtlasSettings& settings,
-                              const AtlasProgress& progress, Stats& stats, Log& log) {
+PhotonFigures writePhotonPart(const fs::path& file, WorkPart part, const AtlasWork& work) {
   PointFileWriter writer(file.string(), kPartChannels);
   const auto write = [&](const MapPhoton& p) {
     const std::array values{
         p.power.x, p.power.y, p.power.z, p.N.x, p.N.y, p.N.z, static_cast<float>(p.map), static_cast<float>(p.surface)};
     writer.add(p.P, vec3(0), 0, values.data());
   };
-  const PhotonFigures figures = traceSorted(scene, rays, shading, names, settings, write, progress, stats, log, part);
-  writer.finish({settings.world, partInputs(names, settings, part)});
+  const PhotonFigures figures = traceSorted(work, part, write);
+  writer.finish({work.settings.world, partInputs(work.names, work.settings, part)});
   return figures;
 }
 

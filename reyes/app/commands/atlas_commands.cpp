@@ -99,9 +99,9 @@ void tracePhotonsOf(Scene& scene, const RenderSettings& settings, Stats& stats, 
   const StageTimer timer(stats, "photons");
   AtlasSettings atlas = atlasSettings(settings, scene, shading);
   atlas.photons.direct = true;  // so that the maps, which may be viewed, have all light
-  const PhotonFigures figures =
-      writePhotons(settings.picture.output, scene, rays, shading, mapNames(scene, shading, atlas), atlas,
-                   meter.pass("tracing photons", 0, 1), stats, log);
+  const MapNames names = mapNames(scene, shading, atlas);
+  const PhotonFigures figures = writePhotons(
+      settings.picture.output, {{&rays, &shading}, names, atlas, meter.pass("tracing photons", 0, 1), stats, log});
   meter.finish();
   stats.addOutput(settings.picture.output);
   if (settings.report.verbosity != Log::Verbosity::Quiet)

@@ -76,10 +76,11 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading) 
   return !folder.empty() && isMadeByHand(folder) ? holdsDirect(folder) : settings.stored.atlasDirect;
 }
 
-std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
-                                                    const ShadingSystem& shading, const RenderSettings& settings,
+std::unique_ptr<const IrradianceAtlas> prepareAtlas(const RayTools& tools, const RenderSettings& settings,
                                                     const AtlasProgress& progress, Checkpoint* kept, Stats& stats,
                                                     Log& log) {
+  const ShadingSystem& shading = *tools.shading;
+  const Scene& scene = tools.rays->scene();
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const std::string given = atlasFolder(settings, shading);
   const bool points = asksPoints(settings, shading);
@@ -103,8 +104,7 @@ std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const Ra
     const bool byHand = points || isMadeByHand(folder);
     if (byHand) requireFinished(points ? fs::path(given) : folder);
     if (points) bricksOfPoints(given, folder, names, {.maxError = settings.stored.brickMaxError}, log);
-    if (!byHand)
-      makeAnewWhatIsDamaged([&] { writeAtlas(folder, scene, rays, shading, names, atlas, progress, stats, log); }, log);
+    if (!byHand) makeAnewWhatIsDamaged([&] { writeAtlas(folder, {tools, names, atlas, progress, stats, log}); }, log);
     auto maps = std::make_unique<const IrradianceAtlas>(folder, scene, names, brickCacheBytes(settings.resources), log);
     if (byHand) warnOfStrangers(*maps, atlas.world, log);
     return maps;
@@ -128,11 +128,12 @@ void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const R
   if (isMadeByHand(folder)) return;
   const AtlasSettings atlas = atlasSettings(settings, scene, shading);
   const MapNames names = mapNames(scene, shading, atlas);
+  const AtlasWork work{tools, names, atlas, progress, stats, log};
   makeAtlasFolder(folder / "parts");
   const bool hasAll = hasPhotons(folder, names, atlas);
   if (pass == AtlasPass::Photons && !hasAll) {
     const StageTimer timer(stats, "photons");
-    writePhotonPart(photonPart(folder, part), part, scene, *tools.rays, shading, names, atlas, progress, stats, log);
+    writePhotonPart(photonPart(folder, part), part, work);
   } else if (pass == AtlasPass::Join && !hasAll) {
     std::vector<fs::path> parts;
     for (int i = 0; i < part.count; ++i) parts.push_back(photonPart(folder, {i, part.count}));
@@ -140,7 +141,7 @@ void makeAtlasPass(AtlasPass pass, WorkPart part, const RayTools& tools, const R
   } else if (pass == AtlasPass::Maps) {
     if (!hasAll)
       throw FileError(fmt::format("\"{}\" has no photons of this scene and these settings", folder.string()));
-    writeMaps(folder, part, scene, *tools.rays, names, atlas, progress, stats, log);
+    writeMaps(folder, part, work);
   }
 }
 

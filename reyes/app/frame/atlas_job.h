@@ -16,8 +16,7 @@ bool storesDirect(const RenderSettings& settings, const ShadingSystem& shading);
 /// Prepares the atlas in the atlasFolder(), where maps that are still true are used and the rest made, or else in a
 /// temporary folder. Maps that were put there by hand are used as they are. Returns null after an error, which has been
 /// reported.
-std::unique_ptr<const IrradianceAtlas> prepareAtlas(const Scene& scene, const RayScene& rays,
-                                                    const ShadingSystem& shading, const RenderSettings& settings,
+std::unique_ptr<const IrradianceAtlas> prepareAtlas(const RayTools& tools, const RenderSettings& settings,
                                                     const AtlasProgress& progress, Checkpoint* kept, Stats& stats,
                                                     Log& log);
 

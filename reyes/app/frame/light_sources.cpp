@@ -12,8 +12,7 @@ void setAtlas(GiServices& services, const FrameOfLight& frame) {
   services.setAtlasSource([frame]() -> std::unique_ptr<const IrradianceAtlas> {
     const RayTools* tools = frame.rays();
     if (!tools) return nullptr;
-    return prepareAtlas(tools->rays->scene(), *tools->rays, *tools->shading, frame.settings, frame.progress, frame.kept,
-                        frame.stats, frame.log);
+    return prepareAtlas(*tools, frame.settings, frame.progress, frame.kept, frame.stats, frame.log);
   });
 }
 

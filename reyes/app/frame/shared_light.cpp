@@ -38,7 +38,7 @@ void makeSharedLight(Scene& scene, ShaderRegistry& shaders, const RenderSettings
   if (pass)
     makeAtlasPass(*pass, part, tools, settings, job.meter().makingMaps(), stats, log);
   else if (method.mode == GiMode::Atlas)
-    prepareAtlas(scene, *tools.rays, *tools.shading, settings, job.meter().makingMaps(), nullptr, stats, log);
+    prepareAtlas(tools, settings, job.meter().makingMaps(), nullptr, stats, log);
   else
     prepareRadiosity(tools, job.camera(), settings, job.meter().makingMaps(), nullptr, stats, log);
 }

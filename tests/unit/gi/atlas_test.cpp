@@ -36,7 +36,7 @@ vec3 meanRadianceAt(const fs::path& folder, World& world, const PhotonSettings& 
   const auto services = world.use({.mode = GiMode::None});
   const MapNames names = mapNames(world.scene, world.shading, settings);
   EXPECT_EQ(names.volume, "scene.volume");
-  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+  writeAtlas(folder, {world.tools(), names, settings, {}, world.stats, world.log});
   BrickCache cache(1 << 24);
   const BrickMap fluence(atlasFile(folder, names.volume, ".bkm").string(), cache);
   const mat4 worldFromCurrent = glm::inverse(world.scene.cameraFromWorldAtOpen());
@@ -59,7 +59,7 @@ std::vector<vec3> gatheredInside(const fs::path& folder, float tessellation, boo
   AtlasSettings settings;
   settings.photons = {200000, 30, 0, storesDirect};
   const MapNames names = mapNames(world.scene, world.shading, settings);
-  writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+  writeAtlas(folder, {world.tools(), names, settings, {}, world.stats, world.log});
   services->setAtlas(std::make_unique<IrradianceAtlas>(folder, world.scene, names, 1 << 20, world.log));
   ShadePoints points(0, 0);
   for (uint32_t i = 0; i < 6; ++i) {
@@ -106,8 +106,8 @@ std::string stagesOf(const fs::path& folder, const AtlasSettings& settings, floa
   const auto services = world.use({.mode = GiMode::None});
   AtlasSettings all = settings;
   all.world = worldSum(world.scene);
-  writeAtlas(folder, world.scene, world.rays, world.shading, mapNames(world.scene, world.shading, all), all, {},
-             world.stats, world.log);
+  const MapNames names = mapNames(world.scene, world.shading, all);
+  writeAtlas(folder, {world.tools(), names, all, {}, world.stats, world.log});
   if (kept) *kept = world.stats.photons.groupsKept;
   std::string out;
   for (const auto& [name, figures] : world.stats.stages()) out += name + " ";
@@ -176,7 +176,7 @@ struct MirroredLight {
     AtlasSettings settings;
     settings.photons = {500000, 6};
     names = mapNames(world.scene, world.shading, settings);
-    writeAtlas(folder, world.scene, world.rays, world.shading, names, settings, {}, world.stats, world.log);
+    writeAtlas(folder, {world.tools(), names, settings, {}, world.stats, world.log});
   }
   IrradianceAtlas opened() { return {folder, world.scene, names, 1 << 20, world.log}; }
   /// Expects the light of the lamp where the mirror throws it, and none above.

@@ -98,6 +98,8 @@ struct World {
     return services;
   }
 
+  RayTools tools() const { return {&rays, &shading}; }
+
   static Scene frozen(Scene s) {
     s.freeze();
     return s;

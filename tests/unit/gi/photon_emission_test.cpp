@@ -85,8 +85,8 @@ struct PhotonFiles : ::testing::Test {
     const auto services = world.use({.mode = GiMode::None});
     AtlasSettings settings;
     settings.photons = {100000, 1};
-    writePhotons(folder, world.scene, world.rays, world.shading, mapNames(world.scene, world.shading, settings),
-                 settings, {}, world.stats, world.log);
+    const MapNames names = mapNames(world.scene, world.shading, settings);
+    writePhotons(folder, {world.tools(), names, settings, {}, world.stats, world.log});
     const PointCloud cloud = PointFile(atlasFile(folder, map, ".ptc").string()).readAll();
     double sum = 0;
     for (size_t i = 0; i < cloud.count(); ++i) sum += double{cloud.at(i)[1]};
@@ -130,8 +130,8 @@ TEST_F(PhotonFiles, OfAnyNumberOfPartsHaveTheBytesOfOneRun) {
   World whole(scene);
   const auto wholeServices = whole.use({.mode = GiMode::None});
   const MapNames names = mapNames(whole.scene, whole.shading, settings);
-  const PhotonFigures all = writePhotons(folder / "whole", whole.scene, whole.rays, whole.shading, names, settings, {},
-                                         whole.stats, whole.log);
+  const PhotonFigures all =
+      writePhotons(folder / "whole", {whole.tools(), names, settings, {}, whole.stats, whole.log});
   for (const int count : {1, 3, 40}) {  // of 40 parts some have no photon
     World world(scene);
     const auto services = world.use({.mode = GiMode::None});
@@ -139,8 +139,8 @@ TEST_F(PhotonFiles, OfAnyNumberOfPartsHaveTheBytesOfOneRun) {
     PhotonFigures sum;
     for (int i = 0; i < count; ++i) {
       parts.push_back(folder / std::to_string(i));
-      const PhotonFigures figures = writePhotonPart(parts.back(), {i, count}, world.scene, world.rays, world.shading,
-                                                    names, settings, {}, world.stats, world.log);
+      const PhotonFigures figures =
+          writePhotonPart(parts.back(), {i, count}, {world.tools(), names, settings, {}, world.stats, world.log});
       sum.emitted += figures.emitted;
       sum.stored += figures.stored;
     }
