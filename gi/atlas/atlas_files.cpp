@@ -182,41 +182,59 @@ bool renewIrradianceBricks(const fs::path& points, const fs::path& out, const Br
   return true;
 }
 
-void writeMaps(const fs::path& folder, WorkPart part, const AtlasWork& work) {
-  const AtlasSettings& settings = work.settings;
-  const fs::path photons = folder / "photons", irradiance = folder / "irradiance";
-  makeAtlasFolder(irradiance);
-  // If photons hold direct light too, hits have no other source of it. So they take whatever is stored near them, walls
-  // or not.
-  const SightAlongSurface sight = settings.photons.direct ? nullptr : sightAlongSurfaces(*work.tools.rays);
-  const ShownDisk shown =
-      settings.photons.direct ? nullptr : shownBy(*work.tools.rays);  // few photons may then be a shadow
-  size_t finished = 0;
-  std::vector<MapFigures> made;
-  int64_t kept = 0;
-  const std::set<std::string> maps = work.names.all();
-  for (const std::string& name : maps) {
-    const fs::path from = atlasFile(photons, name, ".ptc"), points = atlasFile(irradiance, name, ".ptc"),
-                   bricks = atlasFile(folder, name, ".bkm");
-    const bool caustic = name.ends_with(kCaustic),
-               others = finished % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
-    const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : settings.irradiance;
-    const SightAlongSurface seen = caustic || name == work.names.volume ? nullptr : sight;
-    EstimateFigures figures;  // stay empty if the estimates are kept, or made by another part
-    if (!others) {
-      if (pointsMadeFrom(points).inputs !=
-          irradianceInputs(PointFile(from.string()), estimate, static_cast<bool>(seen))) {
-        const StageTimer timer(work.stats, "irradiance");
-        writeIrradiance(from, points, estimate, kPointsInMemory, &figures, seen, caustic ? ShownDisk() : shown);
-      }
-      if (!renewIrradianceBricks(points, bricks, settings.bricks, work.stats)) ++kept;
-      returnFreeMemory();
-    }
-    if (name != work.names.volume) made.push_back({name, PointFile(from.string()).count(), figures});
-    const float share = static_cast<float>(++finished) / static_cast<float>(maps.size());
-    if (work.progress) work.progress(share);
+namespace {
+
+/// What estimates ask of the scene around them. The functions are empty if they ask nothing.
+struct SceneAround {
+  SightAlongSurface sight;
+  ShownDisk shown;
+};
+
+/// If photons hold direct light too, hits have no other source of it. So they take whatever is stored near them, walls
+/// or not, and places of few photons may be shadows.
+SceneAround sceneAround(const AtlasWork& work) {
+  if (work.settings.photons.direct) return {};
+  return {sightAlongSurfaces(*work.tools.rays), shownBy(*work.tools.rays)};
+}
+
+/// Makes the irradiance points and the bricks of a map, unless they are there already. The result is empty if the
+/// estimates are kept.
+EstimateFigures writeMap(const fs::path& folder, const std::string& name, const SceneAround& around,
+                         const AtlasWork& work) {
+  const fs::path photons = atlasFile(folder / "photons", name, ".ptc"),
+                 points = atlasFile(folder / "irradiance", name, ".ptc");
+  const bool caustic = name.ends_with(kCaustic);
+  const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : work.settings.irradiance;
+  const SightAlongSurface sight = caustic || name == work.names.volume ? nullptr : around.sight;
+  EstimateFigures figures;
+  if (pointsMadeFrom(points).inputs !=
+      irradianceInputs(PointFile(photons.string()), estimate, static_cast<bool>(sight))) {
+    const StageTimer timer(work.stats, "irradiance");
+    writeIrradiance(photons, points, estimate, kPointsInMemory, &figures, sight, caustic ? ShownDisk() : around.shown);
   }
-  work.stats.photons.groupsKept += kept;
+  if (!renewIrradianceBricks(points, atlasFile(folder, name, ".bkm"), work.settings.bricks, work.stats))
+    ++work.stats.photons.groupsKept;
+  returnFreeMemory();
+  return figures;
+}
+
+}  // namespace
+
+void writeMaps(const fs::path& folder, WorkPart part, const AtlasWork& work) {
+  makeAtlasFolder(folder / "irradiance");
+  const SceneAround around = sceneAround(work);
+  const std::set<std::string> maps = work.names.all();
+  std::vector<MapFigures> made;
+  int finished = 0;
+  for (const std::string& name : maps) {
+    const bool isOfThisPart = finished++ % part.count == part.index;
+    const EstimateFigures figures = isOfThisPart ? writeMap(folder, name, around, work) : EstimateFigures{};
+    if (name != work.names.volume) {
+      const PointFile photons(atlasFile(folder / "photons", name, ".ptc").string());
+      made.push_back({name, photons.count(), figures});
+    }
+    if (work.progress) work.progress(static_cast<float>(finished) / static_cast<float>(maps.size()));
+  }
   warnOfEstimates(work.scene(), work.names, made, work.log);
 }
 
