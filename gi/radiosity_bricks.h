@@ -13,15 +13,15 @@ namespace tomales {
 struct RadiosityBrickSettings {
   RadiositySettings points;
   /// maxError is a share of the map's mean, as for the atlas; bricks are as fine as the points.
-  BrickSettings bricks{0.03f};
+  BrickSettings bricks{.maxError = 0.03f};
+  size_t cacheBytes = BrickCache::kDefaultBytes;
 };
 
 class RadiosityBricks final : public HitRadiance {
  public:
   /// Bakes what the folder does not yet hold of this world (names.world is that of all objects). Throws FileError.
-  RadiosityBricks(const std::filesystem::path& folder, const RayScene& rays, const ShadingSystem& shading,
-                  const Camera& camera, const MapNames& names, const RadiosityBrickSettings& settings,
-                  size_t cacheBytes, Stats& stats, Log& log);
+  RadiosityBricks(const std::filesystem::path& folder, const RayTools& tools, const Camera& camera,
+                  const MapNames& names, const RadiosityBrickSettings& settings, Stats& stats, Log& log);
 
   bool lookup(const Ray& ray, const Hit& hit, vec3& radiance) const override;
   void report(Stats& stats) const override;

@@ -73,35 +73,41 @@ class RadiosityBaking {
   const WorldFromCurrent world_;
 };
 
+bool holdsAll(const fs::path& folder, const std::set<std::string>& maps, uint64_t inputs) {
+  return std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
+    return pointsMadeFrom(atlasFile(folder, name, ".ptc")).inputs == inputs;
+  });
+}
+
+/// Bakes the points of all maps into the folder.
+void bakePoints(const fs::path& folder, const RayTools& tools, const MapNames& names,
+                const std::vector<SurfaceCharts>& surfaces, const RadiositySettings& settings) {
+  std::map<std::string, PointFileWriter> files;
+  for (const std::string& name : names.all())
+    files.try_emplace(name, atlasFile(folder, name, ".ptc").string(),
+                      std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
+  RadiosityBaking(*tools.rays, *tools.shading, names, surfaces, settings).run(files);
+  for (auto& [name, file] : files) file.finish({names.world, inputsOf(names, settings)});
+}
+
 }  // namespace
 
-RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayScene& rays, const ShadingSystem& shading,
-                                 const Camera& camera, const MapNames& atlas, const RadiosityBrickSettings& settings,
-                                 size_t cacheBytes, Stats& stats, Log& log)
-    : scene_(rays.scene()) {
+RadiosityBricks::RadiosityBricks(const fs::path& folder, const RayTools& tools, const Camera& camera,
+                                 const MapNames& atlas, const RadiosityBrickSettings& settings, Stats& stats, Log& log)
+    : scene_(tools.rays->scene()) {
   const MapNames names = atlas.withoutCausticsAndMedia();
   const fs::path own = folder / "radiosity";  // a folder of its own, so that FOLDER may be that of an atlas as well
   makeAtlasFolder(own);
-  const std::vector<int> objects = bakedObjects(scene_, shading, log);
+  const std::vector<int> objects = bakedObjects(scene_, *tools.shading, log);
   sides_.resize(scene_.objects.size());
   for (const int object : objects)
     sides_[static_cast<size_t>(object)] = scene_.objects[static_cast<size_t>(object)].attributes->sides == 2 ? 2 : 1;
   const std::set<std::string> maps = names.all();
-  const uint64_t inputs = inputsOf(names, settings.points);
-  if (!std::all_of(maps.begin(), maps.end(), [&](const std::string& name) {
-        return pointsMadeFrom(atlasFile(own, name, ".ptc")).inputs == inputs;
-      })) {
-    std::map<std::string, PointFileWriter> files;
-    for (const std::string& name : maps)
-      files.try_emplace(name, atlasFile(own, name, ".ptc").string(),
-                        std::vector<CloudChannel>{{"radiosity", 3}, kSurfaceChannel});
-    const std::vector<SurfaceCharts> surfaces = layOutCharts(scene_, objects, camera, settings.points, log);
-    RadiosityBaking(rays, shading, names, surfaces, settings.points).run(files);
-    for (auto& [name, file] : files) file.finish({names.world, inputs});
-  }
+  if (!holdsAll(own, maps, inputsOf(names, settings.points)))
+    bakePoints(own, tools, names, layOutCharts(scene_, objects, camera, settings.points, log), settings.points);
   for (const std::string& name : maps)
     renewIrradianceBricks(atlasFile(own, name, ".ptc"), atlasFile(own, name, ".bkm"), settings.bricks, stats);
-  maps_ = std::make_unique<const IrradianceAtlas>(own, scene_, names, cacheBytes, log);
+  maps_ = std::make_unique<const IrradianceAtlas>(own, scene_, names, settings.cacheBytes, log);
 }
 
 bool RadiosityBricks::lookup(const Ray& ray, const Hit& hit, vec3& radiance) const {

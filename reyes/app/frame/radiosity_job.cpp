@@ -59,15 +59,11 @@ std::unique_ptr<const HitRadiance> bricksIn(const std::string& folder, const Ray
     if (!settings.stored.radiosityFolder.empty())
       log.report(Severity::Warning, "radiosity-maps", {},
                  "--radiosity-maps: left out, since radiosity goes to brick maps in the folder of --atlas");
-    const RadiosityBrickSettings bricks{.points = radiosity};
+    const RadiosityBrickSettings bricks{.points = radiosity, .cacheBytes = brickCacheBytes(settings.resources)};
     const MapNames names = mapNames(tools.rays->scene(), *tools.shading, atlas);
     std::unique_ptr<const RadiosityBricks> out;
     makeAnewWhatIsDamaged(
-        [&] {
-          out = std::make_unique<const RadiosityBricks>(folder, *tools.rays, *tools.shading, camera, names, bricks,
-                                                        brickCacheBytes(settings.resources), stats, log);
-        },
-        log);
+        [&] { out = std::make_unique<const RadiosityBricks>(folder, tools, camera, names, bricks, stats, log); }, log);
     return out;
   } catch (const Stopped&) {
     return nullptr;

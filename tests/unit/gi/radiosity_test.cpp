@@ -196,8 +196,8 @@ struct BrickBake {
     names = mapNames(world.scene, world.shading, atlas);
   }
   std::unique_ptr<const RadiosityBricks> make(World& world) const {
-    return std::make_unique<const RadiosityBricks>(folder.path(), world.rays, world.shading, world.camera, names,
-                                                   settings, BrickCache::kDefaultBytes, world.stats, world.log);
+    return std::make_unique<const RadiosityBricks>(folder.path(), world.tools(), world.camera, names, settings,
+                                                   world.stats, world.log);
   }
 };
 
