@@ -50,15 +50,22 @@ inline bool standsStillInFocus(const Object& o, const Camera& camera) {
 /// frame's pieces at once would take memory in proportion to its area.
 enum class Splitting : uint8_t { Wholly, Lazily };
 
-/// Splits some patches of an object; pieces wholly outside the window are culled. The order is: first dots, which need
-/// not be measured, then the other patches as given, and within a patch by place.
-std::vector<SubPatch> splitPatches(const Scene& scene, int object, std::span<const uint32_t> patches,
-                                   const Camera& camera, const PixelRect& window, Stats& stats, Log& log,
-                                   Splitting splitting = Splitting::Wholly, StopToken stop = {});
+/// What all splitting of a frame has in common. The references outlive it.
+struct SplitContext {
+  const Scene& scene;
+  const Camera& camera;
+  PixelRect window;  ///< The raster pixels that have samples: pieces wholly outside are culled.
+  Stats& stats;
+  Log& log;
+  StopToken stop{};
+};
+/// Splits some patches of an object. The order is: first dots, which need not be measured, then the other patches as
+/// given, and within a patch by place.
+std::vector<SubPatch> splitPatches(const SplitContext& context, int object, std::span<const uint32_t> patches,
+                                   Splitting splitting = Splitting::Wholly);
 /// Returns the next pieces of a coarse one, split lazily. Once no piece is coarse, they are the same as with
 /// Splitting::Wholly.
-std::vector<SubPatch> splitPiece(const Scene& scene, const SubPatch& coarse, const Camera& camera,
-                                 const PixelRect& window, Stats& stats, Log& log, StopToken stop = {});
+std::vector<SubPatch> splitPiece(const SplitContext& context, const SubPatch& coarse);
 
 /// A tree of boxes in object space around all of an object's shapes over time. Patches are sorted along a space-filling
 /// curve, so that a run of them is compact in any model. Level 0 has a box for each run of kLeaf patches. Each level

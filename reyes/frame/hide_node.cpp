@@ -95,10 +95,7 @@ class CoarseNode : public OpeningNode {
 
  private:
   HideNodes open(const BucketRange& within) override {
-    return nodesOfPieces(context_,
-                         splitPiece(context_.scene, piece_, context_.camera, context_.buckets.window(), context_.stats,
-                                    context_.log, context_.stop),
-                         zMin(), within);
+    return nodesOfPieces(context_, splitPiece(context_.splitting(), piece_), zMin(), within);
   }
 
   const SubPatch piece_;
@@ -175,11 +172,9 @@ class PatchesNode : public OpeningNode {
         if (auto node = make(context_, object_, tree_, level_ - 1, i, within, zMin())) out.push_back(std::move(node));
       return out;
     }
-    return nodesOfPieces(
-        context_,
-        splitPatches(context_.scene, object_, tree_->patches(level_, index_), context_.camera,
-                     context_.buckets.window(), context_.stats, context_.log, Splitting::Lazily, context_.stop),
-        zMin(), within);
+    return nodesOfPieces(context_,
+                         splitPatches(context_.splitting(), object_, tree_->patches(level_, index_), Splitting::Lazily),
+                         zMin(), within);
   }
 
   const int object_;

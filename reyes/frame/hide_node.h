@@ -26,6 +26,8 @@ struct HideContext {
   StopToken stop{};
   Counter liveGrids_bytes{0}, liveGeometry_bytes{0};
   std::mutex growth{};  ///< Guards growth of the scene and its shaders.
+
+  SplitContext splitting() const { return {scene, camera, buckets.window(), stats, log, stop}; }
 };
 
 /// Sets ShadeGroup::steps for the groups from `first` on.

@@ -58,19 +58,18 @@ bool isAlone(const Object& o, uint32_t patch) {
 
 }  // namespace
 
-Splitter::Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
-                   Splitting splitting, StopToken stop)
-    : object_(scene.objects[static_cast<size_t>(object)]),
+Splitter::Splitter(const SplitContext& context, int object, Splitting splitting)
+    : object_(context.scene.objects[static_cast<size_t>(object)]),
       index_(object),
-      gridSize_(scene.options.gridSize),
+      gridSize_(context.scene.options.gridSize),
       longest_(2 * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(gridSize_))))),
-      camera_(camera),
-      stats_(stats),
+      camera_(context.camera),
+      stats_(context.stats),
       lazily_(splitting == Splitting::Lazily),
-      stop_(stop),
+      stop_(context.stop),
       edge_px_(std::sqrt(std::max(object_.attributes->shadingRate, 1e-4f))),
-      view_(object_, camera, window),
-      visits_(window, gridSize_, edge_px_) {}
+      view_(object_, context.camera, context.window),
+      visits_(context.window, gridSize_, edge_px_) {}
 
 std::optional<Bound3> Splitter::takeDot(uint32_t patch, std::vector<SubPatch>& out) {
   if (stopped()) return std::nullopt;

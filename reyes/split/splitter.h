@@ -1,4 +1,4 @@
-// Private to split: halves the patches of one object until their pieces fit into grids.
+// Private to splitting: halves the patches of one object until their pieces fit into grids.
 #pragma once
 #include "reyes/base/stop.h"
 #include "reyes/split.h"
@@ -16,8 +16,8 @@ class Splitter {
     int64_t atEye = 0, tooMany = 0;
   };
 
-  Splitter(const Scene& scene, int object, const Camera& camera, const PixelRect& window, Stats& stats,
-           Splitting splitting, StopToken stop);
+  /// The context must outlive this object.
+  Splitter(const SplitContext& context, int object, Splitting splitting);
 
   /// Tells whether patches like this one may be dots. A shape has either disks only or none.
   bool hasDots(uint32_t patch) const {

@@ -58,8 +58,8 @@ void expectPatchSound(const Prim& prim, uint32_t patch) {
 
 void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& stats, Log& log) {
   const Camera camera(scene.options);
-  const std::vector<SubPatch> pieces = splitPatches(scene, object, std::span(&patch, 1), camera,
-                                                    {0, 0, camera.xResolution(), camera.yResolution()}, stats, log);
+  const std::vector<SubPatch> pieces = splitPatches(
+      {scene, camera, {0, 0, camera.xResolution(), camera.yResolution()}, stats, log}, object, std::span(&patch, 1));
   for (size_t k = 0; k < std::min<size_t>(pieces.size(), kMostPieces); ++k) {
     const SubPatch& p = pieces[k];
     const int keys = static_cast<int>(scene.objects[static_cast<size_t>(object)].keyTimes.size());

@@ -22,7 +22,8 @@ std::vector<SubPatch> splitIn(const Scene& scene, const PixelRect& window) {
   std::iota(patches.begin(), patches.end(), 0U);
   Stats stats;
   Log log(Log::Verbosity::Quiet);
-  return splitPatches(scene, 0, patches, Camera(scene.options), window, stats, log);
+  const Camera camera(scene.options);
+  return splitPatches({scene, camera, window, stats, log}, 0, patches);
 }
 
 Grid diced(const Scene& scene, const SubPatch& p) { return dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1); }

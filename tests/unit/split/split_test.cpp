@@ -62,8 +62,7 @@ TEST(Split, EndsWhenToldToStop) {
   Log log(Log::Verbosity::Quiet);
   std::atomic<bool> stop{false};
   const auto count = [&] {
-    return splitPatches(scene, 0, std::span(&patch, 1), camera, camera.crop(), stats, log, Splitting::Wholly, stop)
-        .size();
+    return splitPatches({scene, camera, camera.crop(), stats, log, stop}, 0, std::span(&patch, 1)).size();
   };
   EXPECT_GT(count(), 0u);
   stop = true;
@@ -91,21 +90,21 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
   const Camera camera(scene.options);
   Stats stats;
   Log log(Log::Verbosity::Quiet);
+  const SplitContext context{scene, camera, camera.crop(), stats, log};
   const auto isCoarse = [](const SubPatch& p) { return p.coarse; };
   const auto place = [](const SubPatch& p) {
     return std::make_tuple(p.object, p.patch, p.rect.u0, p.rect.v0, p.rect.u1, p.rect.v1, p.nu, p.nv);
   };
   for (int object = 0; object < 2; ++object) {
     const uint32_t patch = 0;
-    std::vector<SubPatch> whole = splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log);
-    std::vector<SubPatch> lazy =
-        splitPatches(scene, object, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+    std::vector<SubPatch> whole = splitPatches(context, object, {&patch, 1});
+    std::vector<SubPatch> lazy = splitPatches(context, object, {&patch, 1}, Splitting::Lazily);
     EXPECT_GT(std::count_if(lazy.begin(), lazy.end(), isCoarse), 0);
     EXPECT_LT(lazy.size(), whole.size() / 4);
     for (auto coarse = lazy.end(); (coarse = std::find_if(lazy.begin(), lazy.end(), isCoarse)) != lazy.end();) {
       const SubPatch piece = *coarse;
       lazy.erase(coarse);
-      for (const SubPatch& p : splitPiece(scene, piece, camera, camera.crop(), stats, log)) {
+      for (const SubPatch& p : splitPiece(context, piece)) {
         EXPECT_GE(p.zMin, piece.zMin - 1e-4f);
         lazy.push_back(p);
       }
@@ -122,16 +121,16 @@ TEST(Split, SplittingLazilyEndsInTheSamePieces) {
 /// All pieces of the first patch, lazily, with those that they are made of.
 std::vector<SubPatch> allPieces(const Scene& scene, Stats& stats, Log& log) {
   const Camera camera(scene.options);
+  const SplitContext context{scene, camera, camera.crop(), stats, log};
   const uint32_t patch = 0;
   std::vector<SubPatch> out;
-  std::vector<SubPatch> pieces =
-      splitPatches(scene, 0, {&patch, 1}, camera, camera.crop(), stats, log, Splitting::Lazily);
+  std::vector<SubPatch> pieces = splitPatches(context, 0, {&patch, 1}, Splitting::Lazily);
   while (!pieces.empty()) {
     const SubPatch piece = pieces.back();
     pieces.pop_back();
     out.push_back(piece);
     if (!piece.coarse) continue;
-    const std::vector<SubPatch> finer = splitPiece(scene, piece, camera, camera.crop(), stats, log);
+    const std::vector<SubPatch> finer = splitPiece(context, piece);
     pieces.insert(pieces.end(), finer.begin(), finer.end());
   }
   return out;

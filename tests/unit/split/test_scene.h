@@ -56,7 +56,7 @@ inline std::vector<SubPatch> split(const Scene& scene, Stats& stats, Log& log) {
   for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
     std::vector<uint32_t> patches(scene.objects[static_cast<size_t>(o)].shape().patchCount());
     std::iota(patches.begin(), patches.end(), 0U);
-    const auto pieces = splitPatches(scene, o, patches, camera, camera.crop(), stats, log);
+    const auto pieces = splitPatches({scene, camera, camera.crop(), stats, log}, o, patches);
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
   return all;
