@@ -107,7 +107,7 @@ Chunks::TiledPatch Chunks::cutIntoTiles(int object, uint32_t patch, const Camera
 void Chunks::measure(TiledPatch& tiled, Piece& piece) const {
   const Object& o = scene_.objects[static_cast<size_t>(tiled.object)];
   const auto displaced = [&](const UvRect& part, int nu, int nv) {
-    Grid g = tomales::dice(scene_, tiled.object, tiled.patch, part, nu, nv, 1);
+    Grid g = diceAtOpen(scene_, tiled.object, tiled.patch, part, nu, nv);
     if (displacesForRays(o)) shading_.displace(g);
     if (!isFinite(g)) return g;
     // The displacement bound may be too small.
@@ -191,7 +191,7 @@ ChunkMesh Chunks::dice(size_t chunk) const {
   for (const PatchTile& t : tiles) {
     const Object& o = scene_.objects[static_cast<size_t>(t.object)];
     const auto [nu, nv] = t.rate;
-    Grid g = tomales::dice(scene_, t.object, t.patch, t.rect, nu, nv, 1);
+    Grid g = diceAtOpen(scene_, t.object, t.patch, t.rect, nu, nv);
     if (displacesForRays(o)) shading_.displace(g);
     const bool finite = isFinite(g);
     if (!finite) reportNotFinite(o, log_);

@@ -125,7 +125,7 @@ class PatchLines {
  public:
   PatchLines(const Scene& scene, const Camera& camera, int object, uint32_t patch)
       : object_(scene.objects[static_cast<size_t>(object)]), camera_(camera) {
-    const Grid probe = dice(scene, object, patch, UvRect{}, kLineProbes, kLineProbes, 1);
+    const Grid probe = diceAtOpen(scene, object, patch, UvRect{}, kLineProbes, kLineProbes);
     u_ = linesOf(probe, camera, 1, kLineProbes + 1);
     v_ = linesOf(probe, camera, kLineProbes + 1, 1);
     // The turn of displaced normals is not known beforehand, so displaced surfaces keep the pixel rate out of view too.

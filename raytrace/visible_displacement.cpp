@@ -76,7 +76,7 @@ struct Probe {
 /// Measures the effect on one part. Pixels count as no narrower than `leastPixel`.
 Probe probed(const Scene& scene, const Camera& camera, const ShadingSystem& shading, const PatchOfObject& at,
              const UvRect& part, float leastPixel, int cells) {
-  Grid grid = dice(scene, at.object, at.patch, part, cells, cells, 1);
+  Grid grid = diceAtOpen(scene, at.object, at.patch, part, cells, cells);
   const auto inPixels = [&](const vec3& a, const vec3& b) {
     return glm::length(b - a) / std::max(camera.pixelSize(0.5f * (a + b)), leastPixel);
   };

@@ -21,13 +21,13 @@ struct DiceKeys {
   const Motion& targetFromObject;
 };
 
-/// Dices several pieces. Each has its own vertices, shared with no other. pool: provides the memory of the vertices;
-/// may be null.
+/// Dices several pieces of one object, each into nu x nv cells. Each has its own vertices, shared with no other.
+/// `pool`: provides the memory of the vertices; may be null.
 Grid dice(const Scene& scene, int object, std::span<const PatchPiece> pieces, int nu, int nv, const DiceKeys& at,
           Pool* pool = nullptr);
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& at);
-/// keys: how many of the object's keyTimes to evaluate, with the camera's motion (all, or 1 for shutter open).
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys);
+/// Dices at shutter open alone, in current space.
+Grid diceAtOpen(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv);
 
 /// A point of the true surface at shutter open, in current space, with the derivatives by the patch's own u and v.
 struct TrueSurface {

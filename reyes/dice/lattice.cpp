@@ -176,10 +176,10 @@ int interpolatePrimvars(const Prim& prim, const mat4& m, const mat3& normals, Pi
 
 }  // namespace
 
-Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, int keys) {
+Grid diceAtOpen(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv) {
   const Object& o = scene.objects[static_cast<size_t>(object)];
-  const std::vector<float> times(o.keyTimes.begin(), o.keyTimes.begin() + keys);
-  return dice(scene, object, patch, rect, nu, nv, {times, o.cameraFromObject});
+  const std::vector<float> open{o.keyTimes.front()};
+  return dice(scene, object, patch, rect, nu, nv, {open, o.cameraFromObject});
 }
 
 Grid dice(const Scene& scene, int object, uint32_t patch, const UvRect& rect, int nu, int nv, const DiceKeys& keys) {

@@ -62,8 +62,9 @@ void expectGridsSound(const Scene& scene, int object, uint32_t patch, Stats& sta
       {scene, camera, {0, 0, camera.xResolution(), camera.yResolution()}, stats, log}, object, std::span(&patch, 1));
   for (size_t k = 0; k < std::min<size_t>(pieces.size(), kMostPieces); ++k) {
     const SubPatch& p = pieces[k];
-    const int keys = static_cast<int>(scene.objects[static_cast<size_t>(object)].keyTimes.size());
-    const Grid g = dice(scene, object, patch, p.rect, p.nu, p.nv, keys);
+    const Object& o = scene.objects[static_cast<size_t>(object)];
+    const int keys = static_cast<int>(o.keyTimes.size());
+    const Grid g = dice(scene, object, patch, p.rect, p.nu, p.nv, {o.keyTimes, o.cameraFromObject});
     AlignedVector<float> n[3];
     for (auto& x : n) x.resize(static_cast<size_t>(g.stride()));
     calculateNormals(g, false, n[0].data(), n[1].data(), n[2].data());

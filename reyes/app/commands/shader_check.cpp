@@ -61,7 +61,7 @@ class Check {
 
   void run(const ShadeContext& context, bool turned = false) const {
     if (shader_.kind == TM_DISPLACEMENT) {
-      Grid grid = dice(scene_, 0, 0, UvRect{}, kGrid[0] - 1, kGrid[1] - 1, 1);
+      Grid grid = diceAtOpen(scene_, 0, 0, UvRect{}, kGrid[0] - 1, kGrid[1] - 1);
       return shading_.displace(grid);
     }
     if (shader_.kind == TM_IMAGER) {

@@ -128,7 +128,7 @@ void say(const char* what, const vec3& v) {
 }
 
 void testDisplacement(const Scene& scene, ShadingSystem& shading, const std::array<int, 2>& size) {
-  const Grid still = dice(scene, 0, 0, UvRect{}, size[0] - 1, size[1] - 1, 1);
+  const Grid still = diceAtOpen(scene, 0, 0, UvRect{}, size[0] - 1, size[1] - 1);
   Grid moved;
   const double time_ns = timeOf(shading, {[&] { moved = still; }, [&] { shading.displace(moved); }});
   float longest = 0;

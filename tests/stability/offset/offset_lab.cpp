@@ -89,7 +89,7 @@ struct ObjectCase {
 };
 
 Row run(const ObjectCase& c, const World& world, int rays) {
-  const Grid g = dice(world.scene, 0, 0, c.part, 64, 64, 1);
+  const Grid g = diceAtOpen(world.scene, 0, 0, c.part, 64, 64);
   const bool moves = world.rays->samplesTime(0), inwards = c.inside > 0;
   Row row{c.name, {}, c.limit};
   for (int i = 0; i < rays; ++i) {

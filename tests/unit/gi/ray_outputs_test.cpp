@@ -203,7 +203,7 @@ TEST(RayOutputs, DisplacementIsMetWhereTheObjectAsksForIt) {
     attributes(b).trace.displacements = displaced;
     attributes(b).trace.tessellation = 16;
     World world(b.scene);
-    Grid truth = dice(world.scene, 0, 0, UvRect{}, 64, 64, 1);
+    Grid truth = diceAtOpen(world.scene, 0, 0, UvRect{}, 64, 64);
     world.shading.displace(truth);
     float farthest = 0;
     for (int k = 0; k < truth.vertexCount(); ++k) {

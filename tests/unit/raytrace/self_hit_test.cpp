@@ -16,7 +16,7 @@ struct Counts {
 
 Counts leaveOutwards(const World& world, float leastCosine) {
   Counts counts;
-  Grid g = dice(world.scene, 0, 0, UvRect{0.013f, 0.987f, 0.1f, 0.9f}, 90, 60, 1);
+  Grid g = diceAtOpen(world.scene, 0, 0, UvRect{0.013f, 0.987f, 0.1f, 0.9f}, 90, 60);
   world.shading->displace(g);
   std::vector<float> n[3] = {std::vector<float>(static_cast<size_t>(g.stride())), {}, {}};
   n[1] = n[2] = n[0];

@@ -21,7 +21,7 @@ double area(const Grid& g) {
 
 TEST(Dice, AreaOfADicedSphereTendsToFourPiAtSecondOrder) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 5}));
-  const auto error = [&](int n) { return 4 * 3.14159265358979 - area(dice(scene, 0, 0, {}, 2 * n, n, 1)); };
+  const auto error = [&](int n) { return 4 * 3.14159265358979 - area(diceAtOpen(scene, 0, 0, {}, 2 * n, n)); };
   const double coarse = error(16), fine = error(32);
   EXPECT_GT(coarse, 0);
   EXPECT_GT(fine, 0);
@@ -30,8 +30,8 @@ TEST(Dice, AreaOfADicedSphereTendsToFourPiAtSecondOrder) {
 
 TEST(Dice, PiecesOfOnePatchShareTheirEdgeBitForBit) {
   const Scene scene = sceneOf({sphere()}, translation({0.3f, -0.2f, 5}));
-  const Grid a = dice(scene, 0, 0, {0.125f, 0.25f, 0.5f, 0.75f}, 8, 5, 1),
-             b = dice(scene, 0, 0, {0.25f, 0.375f, 0.5f, 0.75f}, 3, 5, 1);
+  const Grid a = diceAtOpen(scene, 0, 0, {0.125f, 0.25f, 0.5f, 0.75f}, 8, 5),
+             b = diceAtOpen(scene, 0, 0, {0.25f, 0.375f, 0.5f, 0.75f}, 3, 5);
   for (int v = 0; v <= 5; ++v) EXPECT_EQ(a.position(0, v * 9 + 8), b.position(0, v * 4));
 }
 
@@ -81,7 +81,7 @@ TEST(Dice, NormalsPointOutwardsThroughMirrorsAndInsideOut) {
       scene.objects[0].attributes = attributes;
       scene.objects[0].group = -1;
       scene.freeze();
-      const Grid g = dice(scene, 0, 0, {}, 12, 8, 1);
+      const Grid g = diceAtOpen(scene, 0, 0, {}, 12, 8);
       for (int i = 0; i < g.vertexCount(); ++i) {
         const vec3 outward = g.position(0, i) - vec3(0, 0, 5);
         EXPECT_GT(dot(glm::normalize(g.normal(i)), outward) * (inside ? -1 : 1), 0.99f);
@@ -102,7 +102,7 @@ TEST(Dice, MotionKeysFollowTheTransformation) {
   scene.objects[0].group = -1;
   scene.freeze();
   ASSERT_EQ(scene.objects[0].keyTimes.size(), 2u);
-  const Grid g = dice(scene, 0, 0, {}, 4, 4, 2);
+  const Grid g = dice(scene, 0, 0, {}, 4, 4, {scene.objects[0].keyTimes, scene.objects[0].cameraFromObject});
   for (int i = 0; i < g.vertexCount(); ++i) EXPECT_NEAR(g.P(1, 0)[i] - g.P(0, 0)[i], 2.0f, 1e-6f);
 }
 
@@ -133,14 +133,15 @@ TEST(Dice, WhatMovesWithoutDeformingIsEvaluatedOnce) {
                                       {translation({0, 0, 5}), translation({1, 0, 5}), translation({2, 0, 5})}};
   scene.objects[0].group = -1;
   scene.freeze();
-  const Grid g = dice(scene, 0, 0, {0, 0.5f, 0, 0.5f}, 4, 4, 3);
+  const Grid g =
+      dice(scene, 0, 0, {0, 0.5f, 0, 0.5f}, 4, 4, {scene.objects[0].keyTimes, scene.objects[0].cameraFromObject});
   EXPECT_EQ(count, 1);
   for (int key = 0; key < 3; ++key) EXPECT_EQ(g.P(key, 0)[1], 0.125f + static_cast<float>(key));
 }
 
 TEST(Dice, APointOfARayHitIsTheSamePointAsAVertex) {
   const Scene scene = sceneOf({sphere()}, translation({0, 0, 5}));
-  const Grid g = dice(scene, 0, 0, {}, 8, 8, 1);
+  const Grid g = diceAtOpen(scene, 0, 0, {}, 8, 8);
   ShadePoints points(0, 0);
   points.add(1);
   evaluatePoint(scene, 0, 0, 0.25f, 0.5f, points, 0);

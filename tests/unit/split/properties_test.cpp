@@ -26,7 +26,7 @@ std::vector<SubPatch> splitIn(const Scene& scene, const PixelRect& window) {
   return splitPatches({scene, camera, window, stats, log}, 0, patches);
 }
 
-Grid diced(const Scene& scene, const SubPatch& p) { return dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1); }
+Grid diced(const Scene& scene, const SubPatch& p) { return diceAtOpen(scene, p.object, p.patch, p.rect, p.nu, p.nv); }
 
 auto placeOf(const SubPatch& p) {
   return std::make_tuple(p.patch, p.rect.u0, p.rect.v0, p.rect.u1, p.rect.v1, p.nu, p.nv);

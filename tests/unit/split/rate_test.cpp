@@ -122,7 +122,7 @@ TEST(Rate, MicropolygonsAreInTheMeanAsLargeAsTheShadingRateAsksAndNowhereMuchLar
     Stats stats;
     float area_px2 = 0, count = 0;
     for (const SubPatch& p : split(scene, stats)) {
-      const Grid g = dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1);
+      const Grid g = diceAtOpen(scene, p.object, p.patch, p.rect, p.nu, p.nv);
       for (int j = 0; j < g.nv; ++j)
         for (int i = 0; i < g.nu; ++i) {
           const int k = j * (g.nu + 1) + i;

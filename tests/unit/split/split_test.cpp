@@ -74,7 +74,7 @@ TEST(Split, RasterBoundsHoldEveryDicedVertex) {
   const Camera camera(scene.options);
   Stats stats;
   for (const SubPatch& p : split(scene, stats)) {
-    const Grid g = dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1);
+    const Grid g = diceAtOpen(scene, p.object, p.patch, p.rect, p.nu, p.nv);
     for (int i = 0; i < g.vertexCount(); ++i) {
       const vec2 r = camera.raster(g.position(0, i));
       EXPECT_TRUE(r.x >= p.raster.lo.x && r.x <= p.raster.hi.x && r.y >= p.raster.lo.y && r.y <= p.raster.hi.y);
@@ -216,7 +216,7 @@ TEST(Split, RasterBoundsHoldEveryDicedVertexThroughAllOfTheLens) {
   const Camera camera(scene.options);
   Stats stats;
   for (const SubPatch& p : split(scene, stats)) {
-    const Grid g = dice(scene, p.object, p.patch, p.rect, p.nu, p.nv, 1);
+    const Grid g = diceAtOpen(scene, p.object, p.patch, p.rect, p.nu, p.nv);
     for (int i = 0; i < g.vertexCount(); ++i)
       for (const float rim : {-1.0f, 1.0f}) {
         const vec3 P = g.position(0, i);
