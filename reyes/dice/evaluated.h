@@ -13,10 +13,13 @@ struct Triple {
 /// Object-space results of Prim::evaluate for n points. Each thread reuses their memory.
 class Evaluated {
  public:
+  /// The first of the three arrays of each result, in the order of SurfacePoints.
+  static constexpr size_t kP = 0, kDpdu = 3, kDpdv = 6, kN = 9, kArrays = 12;
+
   explicit Evaluated(int n) : stride_(n == 1 ? 1 : static_cast<size_t>(padded(n))) {
     if (n > 1) {
       many_.swap(spare());
-      many_.resize(std::max(many_.size(), stride_ * 12));
+      many_.resize(std::max(many_.size(), stride_ * kArrays));
     }
     data_ = n > 1 ? many_.data() : one_;
   }
@@ -29,16 +32,19 @@ class Evaluated {
     const auto a = [this, first](size_t i) { return data_ + i * stride_ + first; };
     return {a(0), a(1), a(2), a(3), a(4), a(5), a(6), a(7), a(8), a(9), a(10), a(11)};
   }
-  vec3 get(size_t first, int i) const {
-    const float* x = data_ + first * stride_ + i;
+  /// Returns a result, kP to kN, at point i.
+  vec3 get(size_t result, int i) const {
+    const float* x = data_ + result * stride_ + i;
     return {x[0], x[stride_], x[2 * stride_]};
   }
-  Triple<const float> triple(size_t first) const {
-    const float* x = data_ + first * stride_;
+  /// Returns the arrays of a result.
+  Triple<const float> triple(size_t result) const {
+    const float* x = data_ + result * stride_;
     return {x, x + stride_, x + 2 * stride_};
   }
+  /// Moves all results by the share t towards those of `next`.
   void blend(const Evaluated& next, float t) {
-    for (size_t i = 0; i < stride_ * 12; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
+    for (size_t i = 0; i < stride_ * kArrays; ++i) data_[i] = lerp(data_[i], next.data_[i], t);
   }
 
  private:
@@ -49,7 +55,7 @@ class Evaluated {
   }
 
   size_t stride_;
-  float one_[12] = {};
+  float one_[kArrays] = {};
   AlignedVector<float> many_;
   float* data_;
 };

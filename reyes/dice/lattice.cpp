@@ -148,8 +148,8 @@ mat3 placeVertices(const Object& o, const DiceKeys& keys, PieceLattices& lattice
     const mat4 m = key == 0 ? first : keys.targetFromObject.at(time);
     if (g.keyCount > 1) g.turns.push_back(mat3(m) * glm::inverse(mat3(first)));
     if (key == 0 || o.shapes.size() > 1) evaluateAt(o, time, n, e, vertices);
-    transformPoints(m, n, e.triple(0), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
-    if (key == 0) transformDirections(normals, n, e.triple(9), {g.N(0), g.N(1), g.N(2)});
+    transformPoints(m, n, e.triple(Evaluated::kP), {g.P(key, 0), g.P(key, 1), g.P(key, 2)});
+    if (key == 0) transformDirections(normals, n, e.triple(Evaluated::kN), {g.N(0), g.N(1), g.N(2)});
   }
   return normals;
 }

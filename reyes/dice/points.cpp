@@ -8,8 +8,8 @@ TrueSurface surfaceAt(const Scene& scene, int object, uint32_t patch, float u, f
   Evaluated e(1);
   evaluateAt(o, o.keyTimes.front(), 1, e,
              [&](const Prim& shape, Evaluated& out) { shape.evaluate(patch, 1, &u, &v, out.view()); });
-  return {transformPoint(m, e.get(0, 0)), transformVector(m, e.get(3, 0)), transformVector(m, e.get(6, 0)),
-          normalMatrix(o, m) * e.get(9, 0)};
+  return {transformPoint(m, e.get(Evaluated::kP, 0)), transformVector(m, e.get(Evaluated::kDpdu, 0)),
+          transformVector(m, e.get(Evaluated::kDpdv, 0)), normalMatrix(o, m) * e.get(Evaluated::kN, 0)};
 }
 
 namespace {
