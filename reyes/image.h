@@ -1,9 +1,10 @@
 // Verbs: shaded DeepFrame -> pixels -> files. Filter, exposure, quantise, write (RISpec imaging pipeline, in that
 // order).
 #pragma once
-#include <array>
 #include <functional>
-#include <map>
+#include <memory>
+#include <optional>
+
 #include "reyes/base/plugin_trust.h"
 #include "reyes/base/stats.h"
 #include "reyes/camera.h"
@@ -182,53 +183,6 @@ class DisplayFile {
 bool displaysCanBegin(const Options& options, const PluginTrust& trust, Log& log);
 /// Serves MakeShadow: the file of a Display needs no change, so it is checked and copied.
 bool makeShadow(const std::string& picture, const std::string& map, const SourceLoc& where, Log& log);
-/// Joins OpenEXR pictures of crop windows of one frame to the file that the whole frame would have written, with its
-/// parts, channels, deep pixels and headers. `crop` is the frame's own crop window. Throws FileError if they are not of
-/// one frame, leave pixels out or differ where they overlap, and WriteError.
-void joinPictures(const std::vector<std::string>& crops, const std::string& output,
-                  const std::optional<std::array<float, 4>>& crop);
-/// Reads the channels of all parts of an OpenEXR file, which have the window of the first. Throws FileError.
-Image readParts(const std::string& picture);
-/// Copies an OpenEXR file with all its parts, channels and headers, and every bit of what is not changed. Channels that
-/// `by` has are taken from there, and texts of headers are set, or removed where they are empty. Pre: `by` has the size
-/// of the picture. Throws FileError and WriteError.
-void replaceChannels(const std::string& picture, const std::string& output, const Image& by,
-                     const std::map<std::string, std::string>& texts);
 /// Writes a whole picture at once.
 bool writeDisplay(const Image& image, const DisplayCall& display, const Options& options, Log& log);
-/// Colours are encoded as sRGB if `srgb` is set and the format holds integers.
-bool writeImage(const std::string& path, const Image& image, bool srgb, Log& log);
-/// Tells whether the name's extension stands for a format that can be written.
-bool namesPicture(const std::string& path);
-/// Tells whether the extension stands for a format whose readers expect colours that are encoded for a screen.
-bool isForScreens(const std::string& path);
-/// A format of pictures: what a Display and the name of its file may say of it.
-struct DisplayFormat {
-  std::string type, title;
-  std::vector<std::string> otherTypes, extensions, compressions, parameters;
-};
-std::vector<DisplayFormat> displayFormats();
-std::string pictureExtensions();  ///< The extensions of all formats, for messages: "exr, tif, png".
-std::string pictureNames();       ///< The form of names of pictures, for help: "FILE.exr|.tif|.png".
-std::optional<Image> readImage(const std::string& path, std::string& error);
-
-/// Length of an edge, in pixels, of the blocks in which smudges are looked for.
-inline constexpr std::array kSmudgeSizes{8, 16, 32, 64};
-/// Tells whether a block of pixels that should have this mean luminance and variance is even enough to show smudges.
-inline bool isSmooth(double mean, double variance) {
-  constexpr double kMostDeviation = 0.1;  // root mean square over the mean
-  return mean > 0 && variance <= kMostDeviation * kMostDeviation * mean * mean;
-}
-
-/// Figures of `tomales compare` over colour channels of images of equal size.
-struct Comparison {
-  double rmse = 0, relativeMse = 0, meanAbsoluteRelativeError = 0, maxError = 0, psnr_dB = 0, ssim = 0, flip = 0;
-  /// Relative standard deviation of test / reference over the smooth blocks of each size; 0 where fewer than two are.
-  std::array<double, kSmudgeSizes.size()> smudges{};
-  double specks = 0;  ///< Share of the pixels of smooth 8 x 8 blocks whose error exceeds a fifth of their block's mean.
-  int64_t differentPixels = 0;
-};
-Comparison compare(const Image& test, const Image& reference);
-Image differenceImage(const Image& test, const Image& reference);
-
 }  // namespace tomales

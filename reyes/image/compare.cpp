@@ -1,6 +1,7 @@
 #include <array>
 
 #include "reyes/image/image_file.h"
+#include "reyes/image_compare.h"
 
 namespace tomales {
 namespace {

@@ -6,6 +6,7 @@
 #include "reyes/image/encoding.h"
 #include "reyes/image/formats.h"
 #include "reyes/image/view.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 
 namespace tomales {

@@ -12,6 +12,7 @@
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -16,6 +16,7 @@
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image/exr_headers.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "reyes/base/text.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 

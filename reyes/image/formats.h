@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "reyes/image/image_file.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "reyes/image/format_writer.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

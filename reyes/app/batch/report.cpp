@@ -10,6 +10,7 @@
 #include "reyes/app/chart/html.h"
 #include "reyes/base/temporary_folder.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -14,6 +14,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/unfinished_file.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -20,6 +20,7 @@
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -12,6 +12,7 @@
 #include "reyes/app/settings.h"
 #include "reyes/app/watch/interrupt.h"
 #include "reyes/base/unfinished_file.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

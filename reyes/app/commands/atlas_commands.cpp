@@ -20,6 +20,7 @@
 #include "reyes/base/temporary_folder.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/base/unfinished_folder.h"
+#include "reyes/image_files.h"
 #include "reyes/moving_surfaces.h"
 #include "reyes/rib.h"
 

@@ -9,6 +9,8 @@
 
 #include "reyes/app/exit_code.h"
 #include "reyes/image.h"
+#include "reyes/image_compare.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

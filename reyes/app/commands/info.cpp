@@ -16,6 +16,7 @@
 #include "reyes/app/settings.h"
 #include "reyes/dfb.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 
 namespace tomales {

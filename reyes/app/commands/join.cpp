@@ -3,6 +3,7 @@
 #include "reyes/app/exit_code.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 

@@ -9,6 +9,7 @@
 #include "reyes/app/commands/shader_info.h"
 #include "reyes/app/exit_code.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/state.h"
 
 namespace tomales {

@@ -28,6 +28,7 @@
 #include "reyes/base/stop.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/rib.h"
 
 namespace tomales {

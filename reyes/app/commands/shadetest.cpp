@@ -18,6 +18,7 @@
 #include "reyes/dice.h"
 #include "reyes/frame.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/rib.h"
 #include "reyes/shade.h"
 #include "reyes/shader_registry.h"

@@ -2,6 +2,7 @@
 
 #include "reyes/base/deep_stack.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

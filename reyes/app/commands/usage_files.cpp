@@ -4,6 +4,7 @@
 #include "reyes/app/commands/completion.h"
 #include "reyes/app/commands/list.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/rib.h"
 
 namespace tomales {

@@ -8,6 +8,7 @@
 #include "reyes/base/deep_stack.h"
 #include "reyes/base/input_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

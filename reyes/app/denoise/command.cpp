@@ -10,6 +10,7 @@
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/unfinished_file.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 
 namespace tomales {

@@ -10,6 +10,7 @@
 #include "reyes/base/stats.h"
 #include "reyes/base/stop.h"
 #include "reyes/deep.h"
+#include "reyes/image_compare.h"
 #include "reyes/shade.h"
 
 namespace tomales {

@@ -9,6 +9,7 @@
 #include "reyes/base/random_streams.h"
 #include "reyes/base/rng.h"
 #include "reyes/frame.h"
+#include "reyes/image_compare.h"
 
 namespace tomales {
 namespace {

@@ -6,6 +6,7 @@
 #include "reyes/base/stop.h"
 #include "reyes/deep.h"
 #include "reyes/image.h"
+#include "reyes/image_compare.h"
 #include "reyes/shade.h"
 
 namespace tomales {

@@ -12,6 +12,7 @@
 #include "reyes/app/watch/preview.h"
 #include "reyes/app/watch/sketch.h"
 #include "reyes/base/stop.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 

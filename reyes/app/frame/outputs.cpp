@@ -11,6 +11,7 @@
 #include "reyes/base/unfinished_file.h"
 #include "reyes/camera.h"
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 
 namespace tomales {

@@ -12,6 +12,7 @@
 #include "reyes/base/chunk_file.h"
 #include "reyes/base/stop.h"
 #include "reyes/base/temporary_folder.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 #include "reyes/world_sum.h"
 

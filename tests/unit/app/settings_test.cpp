@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/image.h"
+#include "reyes/image_compare.h"
 
 namespace tomales {
 namespace {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "reyes/image.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "reyes/base/rng.h"
 #include "reyes/image/formats.h"
+#include "reyes/image_files.h"
 #include "reyes/pictures.h"
 
 namespace tomales {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "reyes/base/temporary_folder.h"
+#include "reyes/image_files.h"
 
 namespace tomales {
 namespace {
