@@ -1,5 +1,5 @@
 // The five bases that RISpec section 5.2 names, and the step of each.
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

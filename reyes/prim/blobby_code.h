@@ -1,7 +1,7 @@
 // Private to Blobby: parses the arrays of a Blobby request into its field.
 #pragma once
-#include "reyes/prim.h"
 #include "reyes/prim/blobby_field.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -1,8 +1,8 @@
 // Private to Blobby: the ground that repels a Blobby (leaf 1003): heights above a depth picture, and the repelling
 // field.
 #pragma once
-#include "reyes/prim.h"
 #include "reyes/prim/blobby_field.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -1,6 +1,6 @@
 // Private to the primitives: the width of points and curves, and the eye to which they turn.
 #pragma once
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -1,6 +1,6 @@
 // Private to NuPatch and to patch meshes with weights: NURBS as rational Bezier pieces of any order.
 #pragma once
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "reyes/prim/interpolation.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

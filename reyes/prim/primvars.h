@@ -1,8 +1,16 @@
 // Private to the primitives: handling of parameter lists that all factories share.
 #pragma once
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
+
+/// The number of elements of a variable, by its storage class. A constant variable has one.
+struct PrimvarCounts {
+  size_t uniform = 1, varying = 4, vertex = 4, faceVarying = 4;
+};
+/// Turns a RIB parameter list into primvars. It leaves out positions (P, Pw, Pz), which the factories read themselves.
+/// A variable whose number of values is not the one that `counts` asks for is dropped, with a sentence in `problems`.
+std::vector<Primvar> takePrimvars(const ParamList& params, const PrimvarCounts& counts, Problems& problems);
 
 enum class Count { Exactly, AtLeast };
 /// Returns "P", or "Pw" divided by w. Throws PrimError if the number of points does not fit, or if a coordinate is not

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -1,7 +1,7 @@
 // Private to the primitives: the tags of a SubdivisionMesh, checked and sorted by their subjects.
 #pragma once
-#include "reyes/prim.h"
 #include "reyes/prim/edges.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

@@ -1,7 +1,7 @@
 // Private to NuPatch: trim curves as polygons in the parameter square of a surface, 0..1. Threads: const members may be
 // called concurrently.
 #pragma once
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 

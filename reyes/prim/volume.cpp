@@ -1,5 +1,6 @@
 // A Volume: the box that holds its density.
-#include "reyes/prim.h"
+#include "reyes/density.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales {
 namespace {

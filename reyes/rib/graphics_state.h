@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "reyes/prim_factories.h"
 #include "reyes/rib.h"
 #include "reyes/rib/intern.h"
 #include "reyes/rib/ris.h"

@@ -4,7 +4,7 @@
 
 #include <unordered_map>
 
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 #include "reyes/rib.h"
 
 namespace tomales::rib {

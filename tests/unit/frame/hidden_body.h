@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "reyes/frame.h"
+#include "reyes/prim_factories.h"
 #include "reyes/rib.h"
 #include "reyes/shader_registry.h"
 

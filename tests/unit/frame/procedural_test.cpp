@@ -5,6 +5,7 @@
 
 #include "reyes/base/parallel.h"
 #include "reyes/frame.h"
+#include "reyes/prim_factories.h"
 #include "reyes/shader_registry.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);

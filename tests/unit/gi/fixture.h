@@ -4,6 +4,7 @@
 #include "gi/photons.h"
 #include "gi/services.h"
 #include "reyes/dice.h"
+#include "reyes/prim_factories.h"
 #include "reyes/shader_registry.h"
 
 namespace tomales::test {

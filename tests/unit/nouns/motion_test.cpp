@@ -2,6 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "reyes/prim_factories.h"
 #include "reyes/scene.h"
 
 namespace tomales {

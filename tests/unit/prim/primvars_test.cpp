@@ -1,3 +1,4 @@
+#include "reyes/prim/primvars.h"
 #include "tests/unit/prim/support.h"
 
 namespace tomales {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reyes/base/rng.h"
-#include "reyes/prim.h"
+#include "reyes/prim_factories.h"
 
 namespace tomales::test {
 

@@ -1,6 +1,7 @@
 // A small world for ray tests: objects in camera space, real shaders, and the rays' view of them.
 #pragma once
 #include "raytrace/trace.h"
+#include "reyes/prim_factories.h"
 #include "reyes/shader_registry.h"
 
 extern const TmShaderLibrary* tomales_builtin_shaders(void);

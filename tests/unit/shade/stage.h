@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "reyes/prim_factories.h"
 #include "reyes/shade.h"
 #include "reyes/shader_registry.h"
 

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "reyes/prim_factories.h"
 #include "reyes/split.h"
 
 namespace tomales::test {
