@@ -1,8 +1,7 @@
 // Verb: final gathering. It makes one irradiance record at one point: stratified cosine-weighted rays over the
 // hemisphere, whose hits are shaded with direct diffuse light (Tabellion and Lamorlette 2004, sections 4.1 and 4.2).
-// The same rays give the gradients, distances and dominant directions. The plain Monte Carlo estimate that the
-// reference uses is here too. Irradiance: results are E/pi. Space: current. Threads: gather() may be called
-// concurrently.
+// The same rays give the gradients, distances and dominant directions. Irradiance: results are E/pi. Space: current.
+// Threads: gather() may be called concurrently.
 #pragma once
 #include "gi/cache/bright_spots.h"
 #include "gi/irradiance_cache.h"

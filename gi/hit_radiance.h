@@ -1,4 +1,5 @@
-// Radiance of surfaces that is known before gather rays meet them, so that no shader runs there.
+// Radiance of surfaces that is known before gather rays meet them, so that no shader runs there. Radiance is a colour
+// as a shader returns it. Space: current.
 #pragma once
 #include "raytrace/trace.h"
 

@@ -48,10 +48,11 @@ struct PhotonPasses {
   double noise = 0;             ///< The noise at which no more are sent (PhotonMeasurement::noise).
   uint32_t seed = 0;
   bool specularFirstOnly = false;  ///< Count only the light that comes from lamps by mirrors or glass first.
-  bool shrinks = false;  ///< The disks on which photons count shrink while photons are sent. Otherwise each has the
-                         ///< area of its micropolygon.
-  Log* log = nullptr;    ///< Must be set.
-  /// Must be set too. Is told, at the end, how many photons were sent, how many points there are, and their noise.
+  /// The disks on which photons count shrink while photons are sent. Otherwise each has the area of its micropolygon.
+  bool shrinks = false;
+  Log* log = nullptr;  ///< Must not be null.
+  /// Called at the end with the number of photons that were sent, the number of points, and their noise. Must not be
+  /// empty.
   std::function<void(int64_t sent, size_t points, double noise)> tell;
 };
 

@@ -41,7 +41,7 @@ struct Scratch {
   std::vector<int> fineCells, aimedCells, raysOfCell;
   std::vector<float> shares;  ///< The share of each bright spot's light that arrives.
   std::vector<CellSpread> spread;
-  std::vector<float> upright;
+  std::vector<float> upright;  ///< For radiusUnderOccluder().
 };
 
 /// Traces the rays of one record.
