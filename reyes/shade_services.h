@@ -231,7 +231,8 @@ struct LobeDirection {
   int number = 0, count = 1;
 };
 
-/// The interface to ray tracing and GI (implemented in gi/services, injected by reyes/app). Batched; obeys `active`.
+/// The interface to ray tracing and global illumination. gi/services.h implements it, and reyes/app hands it to
+/// shading. Arrays have an element for each point; `active` has a 0 for points that are to be left alone.
 class ShadeServices {
  public:
   virtual ~ShadeServices() = default;
@@ -254,10 +255,8 @@ class ShadeServices {
   /// Takes points all over area light `light`, evenly by area, on the sides that are seen and on others. `out.pdf` is
   /// such that a mean weighted by 1 / (pi pdf) is the mean over the area. meetPdf is a density over solid angle, as
   /// seen from `from`, where meetWholeEmitter() finds the point. Returns false if the light has no geometry.
-  virtual bool sampleWholeEmitter(int, int, TmConstVec3 /*from*/, const float*, const float*,
-                                  const EmitterPoints&) const {
-    return false;
-  }
+  virtual bool sampleWholeEmitter(int light, int count, TmConstVec3 from, const float* xi0, const float* xi1,
+                                  const EmitterPoints& out) const;
   /// Finds the nearest point that shines along each unit direction, on the light's emitters of simple shapes. Where
   /// nothing is met it writes a pdf of 0, and the rest of `out` is not defined.
   virtual void meetEmitter(int light, int count, TmConstVec3 from, TmConstVec3 direction,
@@ -265,10 +264,8 @@ class ShadeServices {
 
   /// Does the same for one of the points in which a direction crosses the geometry, from any side. `layer` counts them
   /// from the nearest.
-  virtual void meetWholeEmitter(int, int /*layer*/, int count, TmConstVec3, TmConstVec3,
-                                const EmitterPoints& out) const {
-    std::fill_n(out.pdf, count, 0.0f);
-  }
+  virtual void meetWholeEmitter(int light, int layer, int count, TmConstVec3 from, TmConstVec3 direction,
+                                const EmitterPoints& out) const;
 
   /// Interpolates what a query asks of the hemisphere around N. That is its mean radiance (E/pi), or the share that is
   /// covered, repeated in all three colours. Returns false, and leaves `out` alone, if nothing is known and rays must
@@ -285,7 +282,7 @@ class ShadeServices {
   /// Returns the area of all geometry of an area light; 0 if it has none.
   virtual float emitterArea(int light) const = 0;
   /// Returns the box around all geometry of an area light; empty if it has none.
-  virtual Bound3 emitterBound(int) const { return {}; }
+  virtual Bound3 emitterBound(int light) const;
 
   /// Writes the light that Volumes scatter between the eye and the points that it sees, from P - I to P, and the share
   /// of light that they absorb or scatter away. Returns false if there is no Volume.

@@ -21,4 +21,14 @@ void ShadeServices::storedIrradiance(const ShadePoints& points, const uint8_t* a
     if (active[i]) set(E, i, vec3(0.0f));
 }
 
+bool ShadeServices::sampleWholeEmitter(int, int, TmConstVec3, const float*, const float*, const EmitterPoints&) const {
+  return false;
+}
+
+void ShadeServices::meetWholeEmitter(int, int, int count, TmConstVec3, TmConstVec3, const EmitterPoints& out) const {
+  std::fill_n(out.pdf, count, 0.0f);
+}
+
+Bound3 ShadeServices::emitterBound(int) const { return {}; }
+
 }  // namespace tomales
