@@ -11,10 +11,6 @@ namespace tomales {
 class CloudServices;
 class ShaderRegistry;
 
-/// Cells of the brightness of a sky's picture, from pole to pole and around: a cell is a third of a degree high, and
-/// the sun half a degree wide.
-constexpr int kSkyRows = 512, kSkyColumns = 1024;
-
 /// The inputs and outputs of ShadingSystem::probe(), which runs a light shader alone, at points that nothing shades.
 /// Photons learn from it what light goes where. Everything is in current space.
 struct LightProbe {

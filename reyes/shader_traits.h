@@ -46,6 +46,10 @@ class GroupTraits {
 /// The kind of a light, as far as the renderer can tell without running its shader.
 enum class LightKind { None, Ambient, Point, Distant, Sky, Area, Indirect };
 
+/// Cells of the brightness of a sky's picture, from pole to pole and around: a cell is a third of a degree high, and
+/// the sun half a degree wide.
+constexpr int kSkyRows = 512, kSkyColumns = 1024;
+
 /// An opening through which a sky lights a room, in current space.
 struct Portal {
   vec3 corner, u, v;  ///< u and v are edges.

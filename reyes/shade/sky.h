@@ -13,6 +13,7 @@
 #include "reyes/base/simd.h"
 #include "reyes/shade/portals.h"
 #include "reyes/shade/texture.h"
+#include "reyes/shader_traits.h"
 
 namespace tomales {
 
