@@ -35,9 +35,10 @@ struct TileSink {
 
 /// Provides the tiles for the shaders and receives them, from any thread.
 struct TileAccess {
-  std::function<bool(size_t index, DeepTile& tile)> load;   ///< Returns false if the tile is to be skipped. One
-                                                            ///< that has colours keeps them.
-  std::function<void(size_t index, DeepTile&& tile)> take;  ///< The tile is shaded, and its points are still there.
+  /// Returns false if the tile is to be skipped. A tile that has colours keeps them.
+  std::function<bool(size_t index, DeepTile& tile)> load;
+  /// Called with the shaded tile, whose points are still there.
+  std::function<void(size_t index, DeepTile&& tile)> take;
 };
 
 /// Returns the layout of a frame's buckets, without tiles.
@@ -71,7 +72,7 @@ std::vector<uint32_t> tilesOf(const DeepFrame& frame, const Options& options);
 void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading, const ShadeContext& context);
 /// Shades tiles, started in the order given. Returns false if stopped: tiles that were being shaded then are dropped,
 /// because parts of them may be missing.
-bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const Scene& scene,
+bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& access, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control);
 
 /// Runs the imager shader, if there is one, over all pixels of the image, in place.

@@ -130,9 +130,9 @@ bool FrameHider::hide(std::span<const uint32_t> tiles, const TileSink& sink) {
 bool hideTiles(const DeepFrame& layout, Scene& scene, ShadingSystem& shading, const FrameControl& control, Stats& stats,
                Log& log, const TileSink& sink) {
   // The frame is hidden in parts, because all geometry between finished and unfinished buckets stays in memory.
-  constexpr size_t kOfThread = 64;
+  constexpr size_t kTilesOfThread = 64;
   const std::vector<uint32_t> order = bucketOrder(scene.options.bucketOrder, layout.columns, layout.rows);
-  const size_t part = kOfThread * static_cast<size_t>(threadCount());
+  const size_t part = kTilesOfThread * static_cast<size_t>(threadCount());
   FrameHider hider(layout, scene, shading, control, stats, log);
   bool complete = true;
   for (size_t first = 0; first < order.size(); first += part)

@@ -63,9 +63,9 @@ using HideNodes = std::vector<std::unique_ptr<HideNode>>;
 /// The nearest node comes first; equal ones come in the order of arrival.
 class NodeQueue {
  public:
-  /// The first overload takes nodes that are owned elsewhere; the second takes nodes that are destroyed after their
-  /// visit.
+  /// Pushes a node that is owned elsewhere.
   void push(HideNode* node) { push(std::shared_ptr<HideNode>(std::shared_ptr<void>(), node)); }
+  /// Pushes a node that is destroyed after its visit.
   void push(std::shared_ptr<HideNode> node) {
     const float zMin = node->zMin();
     queue_.push({zMin, next_++, std::move(node)});

@@ -52,7 +52,7 @@ void shadeTile(DeepTile& tile, const Scene& scene, const ShadingSystem& shading,
   }
 }
 
-bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const Scene& scene,
+bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& access, const Scene& scene,
                 const ShadingSystem& shading, const ShadeContext& context, const FrameControl& control) {
   std::atomic<size_t> done{0};
   std::atomic<bool> skipped{false};
@@ -64,10 +64,10 @@ bool shadeTiles(std::span<const uint32_t> tiles, const TileAccess& steps, const 
   parallelInOrder(tiles.size(), [&](size_t i) {
     if (isStopped()) return;
     DeepTile tile;
-    if (steps.load(tiles[i], tile)) {
+    if (access.load(tiles[i], tile)) {
       if (tile.shaded.empty()) shadeTile(tile, scene, shading, context);
       if (isStopped()) return;
-      steps.take(tiles[i], std::move(tile));
+      access.take(tiles[i], std::move(tile));
     }
     if (control.progress) control.progress(static_cast<float>(++done) / static_cast<float>(tiles.size()));
   });

@@ -96,19 +96,19 @@ void PictureWriter::write(const std::function<std::optional<DeepTile>(size_t til
       progress(0.99f * (static_cast<float>(before) + share * static_cast<float>(tiles.size())) /
                static_cast<float>(frame_.tileCount()));
     };
-    const TileAccess steps{[&](size_t index, DeepTile& tile) {
-                             auto loaded = load(index);
-                             if (!loaded) return false;
-                             tile = std::move(*loaded);
-                             return takeShaded(job_.kept(), index, tile) || !resumes;
-                           },
-                           [&](size_t index, DeepTile&& tile) {
-                             if (!cut) tellNoise(tile);
-                             if (!cut) keepColors(index, tile);
-                             place(index, std::move(tile), put);
-                           }};
+    const TileAccess access{[&](size_t index, DeepTile& tile) {
+                              auto loaded = load(index);
+                              if (!loaded) return false;
+                              tile = std::move(*loaded);
+                              return takeShaded(job_.kept(), index, tile) || !resumes;
+                            },
+                            [&](size_t index, DeepTile&& tile) {
+                              if (!cut) tellNoise(tile);
+                              if (!cut) keepColors(index, tile);
+                              place(index, std::move(tile), put);
+                            }};
     const FrameControl control{tell, cut ? StopToken() : processStop(), job_.settings().picture.seed};
-    complete = shadeTiles(tiles, steps, job_.scene(), job_.shading(), context, control) && complete;
+    complete = shadeTiles(tiles, access, job_.scene(), job_.shading(), context, control) && complete;
     shaded += tiles.size();
   });
   if (!complete) job_.log().report(Severity::Warning, "interrupted", {}, "interrupted: finished buckets are written");

@@ -21,10 +21,10 @@ bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink) {
   return hideTiles(layout, job.scene(), job.shading(), control, job.stats(), job.log(), sink);
 }
 
-bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps) {
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& access) {
   const StageTimer timer(job.stats(), "shade");
   const FrameControl control{job.meter().shading(), processStop(), job.settings().picture.seed};
-  return shadeTiles(tiles, steps, job.scene(), job.shading(), job.shadeContext(), control);
+  return shadeTiles(tiles, access, job.scene(), job.shading(), job.shadeContext(), control);
 }
 
 void showWindow(FrameJob& job, const DeepFrame& layout, const PixelRect& window, const ShownTiles& tiles,

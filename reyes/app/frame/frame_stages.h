@@ -8,7 +8,7 @@ namespace tomales {
 /// Hides all buckets, and opens the procedurals that it meets. Returns false if it was interrupted.
 bool hideBuckets(FrameJob& job, const DeepFrame& layout, const TileSink& sink);
 /// Shades some buckets. Returns false if it was interrupted.
-bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& steps);
+bool shadeBuckets(FrameJob& job, std::span<const uint32_t> tiles, const TileAccess& access);
 
 /// The light in which a part of a frame is shown.
 struct ShownLight {
