@@ -34,11 +34,20 @@ struct Placement {
   float zMin;  ///< Depth in camera space.
 };
 
-/// Bounds a box of object space as the camera sees it at all of `keyTimes`. Displacement may leave the box by `margin`
-/// (camera space). `window`: raster pixels that have samples. Returns nothing if no point of the box can be seen in the
-/// window. Without `clipped` the far plane and clipping planes hide nothing, because a solid needs all of its surfaces.
-std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window, bool clipped = true);
+/// A box of object space that moves.
+struct MovingBox {
+  const Bound3& box;
+  const Motion& cameraFromObject;
+  const std::vector<float>& keyTimes;
+  float margin;  ///< Displacement may leave the box by this, in camera space.
+};
+/// Says whether the far plane and clipping planes hide what lies beyond them. For parts of a solid they do not, because
+/// it needs all of its surfaces.
+enum class Clipping : uint8_t { On, Off };
+/// Bounds a box as the camera sees it over the shutter. `window`: raster pixels that have samples. Returns nothing if
+/// no point of the box can be seen in the window.
+std::optional<Placement> placeBox(const MovingBox& moving, const Camera& camera, const PixelRect& window,
+                                  Clipping clipping = Clipping::On);
 
 /// Tells whether a piece depends on its own vertices alone. That is so without motion, defocus, displacement and other
 /// parts of a solid.

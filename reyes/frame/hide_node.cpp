@@ -26,6 +26,12 @@ constexpr float kFewParticles = 1.0f / 64, kManyParticles = 1;
 /// objects would wait for each other.
 enum class Opening : uint8_t { Shared, Transient, AtOnce };
 
+/// Returns a box in the space of an object or procedural, with its motion.
+template <class Body>
+MovingBox movingBox(const Body& body, const Bound3& box) {
+  return {box, body.cameraFromObject, body.keyTimes, body.displacementBound};
+}
+
 /// Tells whether all of an object is visited, even hidden parts: the visible surface of a solid depends on all its
 /// pieces.
 bool isVisitedWhole(const Object& o) { return o.solid >= 0 || !o.attributes->cull.hidden; }
@@ -123,8 +129,8 @@ class PatchesNode : public OpeningNode {
   static std::unique_ptr<HideNode> make(HideContext& context, int object, Tree tree, uint32_t level, uint32_t index,
                                         const BucketRange& outer, float nearest) {
     const Object& o = context.scene.objects[static_cast<size_t>(object)];
-    auto place = placeBox(tree->box(level, index), o.cameraFromObject, o.keyTimes, o.displacementBound, context.camera,
-                          context.buckets.window(), o.solid < 0);
+    auto place = placeBox(movingBox(o, tree->box(level, index)), context.camera, context.buckets.window(),
+                          o.solid < 0 ? Clipping::On : Clipping::Off);
     if (place && isVisitedWhole(o)) place->zMin = nearest;
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) {
@@ -197,8 +203,8 @@ HideNodes nodesOf(HideContext& context, const std::vector<int>& objects, const B
     if (!tree) tree = std::make_shared<const PatchTree>(o.shapes, context.stop);
     if (o.solid < 0) continue;
     float& z = zOfSolid.try_emplace(o.solid, kInfinity).first->second;
-    if (const auto place = placeBox(tree->box(tree->top(), 0), o.cameraFromObject, o.keyTimes, o.displacementBound,
-                                    context.camera, context.buckets.window(), false))
+    if (const auto place =
+            placeBox(movingBox(o, tree->box(tree->top(), 0)), context.camera, context.buckets.window(), Clipping::Off))
       z = std::min(z, place->zMin);
   }
   HideNodes out;
@@ -222,8 +228,7 @@ class ProceduralNode : public OpeningNode {
  public:
   static std::unique_ptr<HideNode> make(HideContext& context, const Procedural& procedural, const BucketRange& outer) {
     const Procedural& p = procedural;
-    auto place = placeBox(p.bound, p.cameraFromObject, p.keyTimes, p.displacementBound, context.camera,
-                          context.buckets.window());
+    auto place = placeBox(movingBox(p, p.bound), context.camera, context.buckets.window());
     if (place && !p.attributes->cull.hidden) place->zMin = -kInfinity;
     const BucketRange range = place ? outer & context.buckets.touched(place->raster) : BucketRange{};
     if (range.empty()) return nullptr;

@@ -50,15 +50,16 @@ Bound2 rasterOf(const Bound3& bound, float reach_px, const Camera& camera, const
   return {raster.lo - margin, raster.hi + margin};
 }
 
-std::optional<Placement> placeBox(const Bound3& box, const Motion& cameraFromObject, const std::vector<float>& keyTimes,
-                                  float margin, const Camera& camera, const PixelRect& window, bool clipped) {
+std::optional<Placement> placeBox(const MovingBox& moving, const Camera& camera, const PixelRect& window,
+                                  Clipping clipping) {
   Bound3 bound;
-  for (const float t : keyTimes) bound.extend(transformBound(cameraFromObject.at(t), box));
-  bound = bound.grown(margin);
+  for (const float t : moving.keyTimes) bound.extend(transformBound(moving.cameraFromObject.at(t), moving.box));
+  bound = bound.grown(moving.margin);
   const Placement anywhere{{{window.x0, window.y0}, {window.x1, window.y1}}, -kInfinity};
   if (!isFinite(bound.lo) || !isFinite(bound.hi)) return anywhere;  // one bad patch must not spoil its neighbours
-  if (clipped ? camera.outside(bound, window) : camera.outsideWindow(bound, window)) return std::nullopt;
-  return Placement{rasterOf(bound, borderReach_px(margin), camera, anywhere.raster), bound.lo.z};
+  const bool isUnseen = clipping == Clipping::On ? camera.outside(bound, window) : camera.outsideWindow(bound, window);
+  if (isUnseen) return std::nullopt;
+  return Placement{rasterOf(bound, borderReach_px(moving.margin), camera, anywhere.raster), bound.lo.z};
 }
 
 }  // namespace tomales

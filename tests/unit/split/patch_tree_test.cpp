@@ -65,7 +65,7 @@ TEST(PlaceBox, ACrossedEyePlaneIsTheWholeWindowAndWhatIsBehindIsNowhere) {
   const Scene scene = sceneOf({sphere()}, mat4(1.0f));
   const Camera camera(scene.options);
   const auto place = [&](float z) {
-    return placeBox({vec3(-1), vec3(1)}, Motion::still(translation({0, 0, z})), {0.0f}, 0, camera, camera.crop());
+    return placeBox({{vec3(-1), vec3(1)}, Motion::still(translation({0, 0, z})), {0.0f}, 0}, camera, camera.crop());
   };
   EXPECT_FALSE(place(-3).has_value());
   ASSERT_TRUE(place(0).has_value());
