@@ -51,34 +51,33 @@ float turnOf(const LineSize& line) {
 
 /// Returns the least number of cells at any rate, so that the shape does not collapse where blur lets edges grow, and
 /// chords are flat.
-int leastOf(const LineSize& line, float edge_px, float coarsening, bool joins) {
+int leastOf(const LineSize& line, const CellRules& rules) {
   constexpr float kLeastOfCoarse = 4;
   // The hider knows how far a line bulges if it has two chords or more, and closes cracks by that
   // (docs/decisions/0003).
   constexpr float kOneChord_px = 0.05f;
   // If the second difference of a line's quarters is bend_px, its n-th part bulges by 2 bend_px / n^2.
   const auto within = [&](float px) { return std::min(std::ceil(std::sqrt(2 * line.bend_px / px)), 64.0f); };
-  const float fine = std::ceil(line.px / (kLongest * edge_px)),
-              coarse = std::ceil(line.px / (kLongest * edge_px * coarsening));
+  const float fine = std::ceil(line.px / (kLongest * rules.edge_px)),
+              coarse = std::ceil(line.px / (kLongest * rules.edge_px * rules.coarsening));
   const float turning = std::ceil(turnOf(line) / kTurn);
-  const float flat = std::max(within(kFlat_px * coarsening), std::min(turning, std::max(within(kFlat_px), fine)));
+  const float flat = std::max(within(kFlat_px * rules.coarsening), std::min(turning, std::max(within(kFlat_px), fine)));
   const float n = std::max({coarse, std::min(fine, kLeastOfCoarse), static_cast<float>(line.least), flat,
-                            joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
+                            rules.joins && 2 * line.bend_px > kOneChord_px ? 2.0f : 1.0f});
   return n >= 1.0f ? static_cast<int>(std::min(n, kMostCells)) : 1;
 }
 
 }  // namespace
 
-Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins) {
+Cells cells(const PatchSize& size, const CellRules& rules) {
   const float square = size.area_px2 / (size.u.px * size.v.px);
-  const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (edge_px * coarsening);
+  const float edges = std::sqrt(square < 1.0f ? square : 1.0f) / (rules.edge_px * rules.coarsening);
   const auto along = [&](const LineSize& line) {
     return line.px > 0 && edges > 0 ? std::min(line.px * edges, kMostCells) : 0.0f;
   };
-  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, edge_px, coarsening, joins),
-                         leastOf(size.v, edge_px, coarsening, joins));
-  const auto whole = [binary](int count, const LineSize& line) {
-    if (binary) return static_cast<int>(std::bit_ceil(static_cast<unsigned>(count)));
+  const Cells n = fewest(along(size.u), along(size.v), leastOf(size.u, rules), leastOf(size.v, rules));
+  const auto whole = [&](int count, const LineSize& line) {
+    if (rules.binary) return static_cast<int>(std::bit_ceil(static_cast<unsigned>(count)));
     return line.least > 1 && count < kFewOfRound ? count + count % 2 : count;
   };
   return {whole(n.nu, size.u), whole(n.nv, size.v)};

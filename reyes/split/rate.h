@@ -29,10 +29,15 @@ std::vector<PatchSize> measureWhole(const Object& object, const Camera& camera, 
 struct Cells {
   int nu, nv;
 };
-/// Chooses the cells of a piece: as few as have the area edge_px^2 in raster space, with edges up to half as long again
-/// where lines cross at a slant or counts are rounded. There are fewer where blur lets edges grow by `coarsening`, but
-/// never fewer than `least`, so that the shape does not collapse, and enough that chords are flat (docs/decisions/0034,
-/// 0050). `binary` makes them powers of two; `joins` means that its edges meet others.
-Cells cells(const PatchSize& size, float edge_px, float coarsening, bool binary, bool joins);
+struct CellRules {
+  float edge_px = 1;     ///< The root of the area of a cell in raster space.
+  float coarsening = 1;  ///< Factor by which blur lets edges grow.
+  bool binary = false;   ///< Counts are powers of two.
+  bool joins = false;    ///< The edges of the piece meet those of others.
+};
+/// Chooses the cells of a piece: as few as have the area that the rules ask for, with edges up to half as long again
+/// where lines cross at a slant or counts are rounded. There are never fewer than LineSize::least, so that the shape
+/// does not collapse, and enough that chords are flat (docs/decisions/0034, 0050).
+Cells cells(const PatchSize& size, const CellRules& rules);
 
 }  // namespace tomales

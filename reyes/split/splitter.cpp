@@ -118,8 +118,10 @@ std::optional<Splitter::Measured> Splitter::measured(uint32_t patch, const UvRec
   }
   const Bound3 bound = bare.grown(object_.displacementBound);
   const bool joins = !alone_ || depth > 0;
-  const auto [nu, nv] =
-      cells(size, edge_px_, view_.coarsening(patch, rect, bound), object_.attributes->binaryDice, joins);
+  const auto [nu, nv] = cells(size, {.edge_px = edge_px_,
+                                     .coarsening = view_.coarsening(patch, rect, bound),
+                                     .binary = object_.attributes->binaryDice,
+                                     .joins = joins});
   const bool oneCell = flat_ && nu == 1 && nv == 1;
   const float reach_px = oneCell || !joins ? kLeastReach_px : borderReach_px(object_.displacementBound);
   return Measured{size, edgeLengths, bare, bound, view_.crossesEye(bare), nu, nv, reach_px};

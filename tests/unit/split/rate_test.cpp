@@ -221,7 +221,7 @@ TEST(Rate, DisksThatAreTakenForDotsUnmeasuredWouldTakeFewCells) {
     Stats stats;
     int dots = 0;
     for (const SubPatch& p : split(scene, stats)) {
-      const Cells c = cells(measure(scene.objects[0], camera, p.patch, UvRect{}), 1, 1, false, false);
+      const Cells c = cells(measure(scene.objects[0], camera, p.patch, UvRect{}), {});
       EXPECT_EQ(p.round, c.nu * c.nv <= 6) << c.nu << " x " << c.nv;
       dots += p.round;
     }
@@ -236,7 +236,7 @@ TEST(Rate, RoundingDoesNotTurnTheCellsOfASquare) {
     size.u.px = u_px;
     size.v.px = v_px;
     size.area_px2 = u_px * v_px;
-    return cells(size, 1, 1, false, false);
+    return cells(size, {});
   };
   for (const float px : {9.77f, 3.4f, 17.6f, 5.2f}) {
     const Cells even = cut(px, px);
