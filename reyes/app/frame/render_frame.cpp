@@ -103,18 +103,30 @@ bool mayWriteEarly(const Scene& scene, const RenderSettings& settings, bool gath
 
 using TileFinder = std::function<std::optional<DeepTile>(size_t tile)>;
 
-/// Hides all buckets, gathers light if `gathers`, and writes the picture. `given`: records of light come from a file.
-/// `budget_bytes`: memory for buckets. Returns false if it is a pilot, which leaves nothing.
-bool renderInStages(FrameJob& job, const DeepFrame& layout, BucketFile& file, const TileFinder& find, bool gathers,
-                    bool given, int64_t budget_bytes, const std::function<void()>& afterStage) {
+/// A frame whose buckets are all hidden before the first one is shaded.
+struct StagedFrame {
+  FrameJob& job;
+  const DeepFrame& layout;
+  BucketFile& file;
+  TileFinder find;       ///< Finds buckets that `file` holds.
+  int64_t budget_bytes;  ///< Memory for buckets.
+  bool gathers;          ///< Light is gathered.
+  bool hasGivenRecords;  ///< Records of light come from a file.
+  std::function<void()> afterStage;
+};
+
+/// Hides all buckets, gathers light, and writes the picture. Returns false if it is a pilot, which leaves nothing.
+bool renderInStages(const StagedFrame& frame) {
+  const auto& [job, layout, file, find, budget_bytes, gathers, hasGivenRecords, afterStage] = frame;
   const RenderSettings& settings = job.settings();
   const bool isLimited = settings.resources.memoryLimit.has_value();
   // The geometry that rays will meet needs an unknown amount of memory too.
-  TileStore store(layout.tileCount(), isLimited && gathers && !given ? budget_bytes / 2 : budget_bytes, find);
-  const TileStore::Spill spill = [&](size_t i, const DeepTile& tile) { file.spill(i, tile); };
+  const bool leavesRoom = isLimited && gathers && !hasGivenRecords;
+  TileStore store(layout.tileCount(), leavesRoom ? budget_bytes / 2 : budget_bytes, find);
+  const TileStore::Spill spill = [&frame](size_t i, const DeepTile& tile) { frame.file.spill(i, tile); };
   const TileSink sink{{},
                       [&](size_t i, DeepTile&& tile) {
-                        file.keepForResume(i, tile);
+                        frame.file.keepForResume(i, tile);
                         if (!store.keep(i, tile)) spill(i, tile);
                       },
                       settings.picture.resume ? find : nullptr};
@@ -123,7 +135,7 @@ bool renderInStages(FrameJob& job, const DeepFrame& layout, BucketFile& file, co
   afterStage();
   if (isLimited && job.method().makesMaps)
     store.shrinkTo(0, spill);  // photons need the room; buckets are loaded again when they are read
-  if (!given) job.prepareRays();
+  if (!hasGivenRecords) job.prepareRays();
   if (isLimited) {
     store.shrinkTo(tileBudget(settings, store.held_bytes()), spill);
     returnFreeMemory();
@@ -163,7 +175,14 @@ void renderFrame(Scene& scene, ShaderRegistry& shaders, int world, const RenderS
   if (given && job.services() && !useIrradiance(scene, settings, job, log)) return;
   if (streams)
     hideAndWritePicture(job, layout, find, [&](size_t i, const DeepTile& tile) { file.keepForResume(i, tile); });
-  else if (!renderInStages(job, layout, file, find, gathers, given, budget_bytes, afterStage))
+  else if (!renderInStages({.job = job,
+                            .layout = layout,
+                            .file = file,
+                            .find = find,
+                            .budget_bytes = budget_bytes,
+                            .gathers = gathers,
+                            .hasGivenRecords = given,
+                            .afterStage = afterStage}))
     return file.forget();
   if (settings.resources.memoryLimit)
     reportMemory(*settings.resources.memoryLimit,
