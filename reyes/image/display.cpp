@@ -15,6 +15,21 @@ struct DisplayFile::Impl {
   Impl(const Image& whole, const FrameOutput& output, size_t index, const Options& o, Log& l, const View& view,
        const MatteNames& names, const PluginTrust& trust)
       : display(o.displays[index]), options(o), log(l), path(display.name), selection(output.displays[index]) {
+    chooseFormat(view, trust);
+    shape = whole;
+    shape.channels.clear();
+    shape.pixels.clear();
+    if (writesDeep(display)) openDeep();
+    describeView(view);
+    selectFloats(whole, output);
+    const bool holdsNumbers = !format.kind->quantises || prepareIntegers();
+    if (addMattes(output, names) && holdsNumbers) file = std::make_unique<PictureFile>(path, shape, format);
+    if (file && !file->error().empty()) report();
+    if (file && format.driver) warnOfUnreadParams(display, file->unread(), log);
+  }
+
+  /// Finds the format of the file, or the display driver that takes its place.
+  void chooseFormat(const View& view, const PluginTrust& trust) {
     const std::string driver = driverOf(display, options, trust);
     if (driver.empty()) {
       warnOfRefusedDriver(display, options, trust, log);
@@ -26,20 +41,23 @@ struct DisplayFile::Impl {
       format.driver = {driver, display, view};
     }
     format.pixelAspect = options.pixelAspect;
-    shape = whole;
-    shape.channels.clear();
-    shape.pixels.clear();
-    if (writesDeep(display)) openDeep();
+  }
+
+  /// Adds what readers of the file may want to know of the camera and the filter.
+  void describeView(const View& view) {
     for (Metadata& m : cameraOf(view)) format.metadata.push_back(std::move(m));
     if (writesDeep(display) || writesShadowMap(display))
       format.metadata.push_back(matrixEntry("worldtoscreen", view.screenFromWorld));
-    if (writesDeep(display)) {
-      const PixelFilter filter = positiveFilter(options);
-      format.metadata.push_back(
-          {kSampleRegion,
-           "",
-           {2.0f * static_cast<float>(filter.reachX()) + 1, 2.0f * static_cast<float>(filter.reachY()) + 1}});
-    }
+    if (!writesDeep(display)) return;
+    const PixelFilter filter = positiveFilter(options);
+    format.metadata.push_back(
+        {kSampleRegion,
+         "",
+         {2.0f * static_cast<float>(filter.reachX()) + 1, 2.0f * static_cast<float>(filter.reachY()) + 1}});
+  }
+
+  /// Names the channels of the file, and finds their floats in the frame's picture.
+  void selectFloats(const Image& whole, const FrameOutput& output) {
     const std::vector<std::string> floats = output.names();
     for (const SelectedFloat& f : selection) {
       const Channel& channel = output.channels[static_cast<size_t>(f.channel)];
@@ -49,15 +67,17 @@ struct DisplayFile::Impl {
       // Depth, position and ids lose their meaning in half floats.
       if (depth.back() || channel.type == ValueType::Point || isMatte(channel.kind)) format.precise.push_back(f.name);
     }
-    bool good = !format.kind->quantises || prepareIntegers();
+  }
+
+  /// Adds the names of each Cryptomatte that the Display shows. Returns false if the format has no room for them.
+  bool addMattes(const FrameOutput& output, const MatteNames& names) {
+    bool good = true;
     for (const Channel& c : output.channels)
       if (isMatte(c.kind) && std::any_of(selection.begin(), selection.end(), [&](const SelectedFloat& f) {
             return &output.channels[static_cast<size_t>(f.channel)] == &c;
           }))
         good = addMatte(c.kind, names) && good;
-    if (good) file = std::make_unique<PictureFile>(path, shape, format);
-    if (file && !file->error().empty()) report();
-    if (file && format.driver) warnOfUnreadParams(display, file->unread(), log);
+    return good;
   }
 
   bool addMatte(ChannelKind kind, const MatteNames& names) {
