@@ -35,12 +35,13 @@ struct AtlasSettings {
 /// surfaces that touch do not share light.
 struct MapNames {
   std::vector<std::string> global;
-  std::vector<std::string> caustic;  ///< Ends in kCaustic; empty: the group has none.
+  std::vector<std::string> caustic;  ///< Empty: the group has none.
   std::string volume;                ///< The map of photons in media; empty: there are none.
   /// PointCloud::surface() of the group's points; 0: it is too small to have light of its own.
   std::vector<int> surface;
   uint64_t world = 0;  ///< AtlasSettings::world of the groups.
   std::set<std::string> all() const;
+  static bool isCaustic(const std::string& map);  ///< Tells whether a map of this name holds caustics.
   /// Returns the maps that gather rays look up: all but that of media, which shaders read.
   std::set<std::string> surfaceMaps() const;
   MapNames withoutCausticsAndMedia() const;  ///< The same without caustics and media: baked light has no maps of these.
