@@ -174,8 +174,7 @@ void BrickMap::addLayers(int level, const glm::ivec3& voxel, const vec3& N, floa
 /// (3.3). Returns false if nothing is found there.
 bool BrickMap::addFiner(int level, const glm::ivec3& voxel, const vec3& N, float weight, Sum& sum, int depth) const {
   const float before = sum.weight;
-  for (int k = 0; k < 8; ++k)
-    addVoxel(level + 1, voxel * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1), N, weight / 8, sum, depth + 1);
+  for (int k = 0; k < 8; ++k) addVoxel(level + 1, voxel * 2 + octantOffset(k), N, weight / 8, sum, depth + 1);
   if (sum.weight > before) return true;
   find(level, voxel >> 3, sum);
   return false;

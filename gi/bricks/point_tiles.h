@@ -53,8 +53,8 @@ void forEachTile(const PointTiles& tiles, uint64_t most, const Work& work, int l
   const uint64_t count = tiles.count(level, place);
   if (count == 0) return;
   if (count <= most || level == PointTiles::kDeepest) return work(level, place);
-  for (int k = 0; k < 8; ++k)
-    forEachTile(tiles, most, work, level + 1, place * 2 + glm::ivec3(k & 1, k >> 1 & 1, k >> 2 & 1));
+  for (int octant = 0; octant < 8; ++octant)
+    forEachTile(tiles, most, work, level + 1, place * 2 + octantOffset(octant));
 }
 
 }  // namespace tomales
