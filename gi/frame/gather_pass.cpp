@@ -84,34 +84,47 @@ class GatherPass {
 
   bool isAnew(const Site& s) const { return state_.anew && state_.anew->contains(s.x, s.y); }
 
-  void prepareBounces(const std::vector<Site>& sites) {
-    int bounces = 1;
-    const IndirectQuery* query = nullptr;  // of the first group that asks
+  /// The indirect lights that the groups of this frame ask.
+  struct AskedLights {
+    int bounces = 1;                       ///< The most that one of them follows.
+    const IndirectQuery* first = nullptr;  ///< The query of the first group that asks.
+  };
+  AskedLights askedLights() const {
+    AskedLights out;
     for (size_t g = 0; g < caches_.ofGroups().size(); ++g)
       for (const size_t c : caches_.ofGroups()[g])
         if (isIndirect(c)) {
           const IndirectQuery* own = state_.shading.group(static_cast<int>(g)).indirectQuery();
-          if (!query) query = own;
-          bounces = std::max(bounces, bouncesFor(state_, *own));
+          if (!out.first) out.first = own;
+          out.bounces = std::max(out.bounces, bouncesFor(state_, *own));
         }
+    return out;
+  }
+
+  // Every gather point may look the bounce caches up. So the records there have as many rays, and as long ones, as any
+  // cache asks for, whichever pixel comes first. Pre: some cache is of an indirect light.
+  GatherSettings gatherOfBounces(const IndirectQuery& query) const {
+    size_t first = 0;
+    while (!isIndirect(first)) ++first;
+    GatherSettings out = gatherOf(first);
+    out.subset = query.subset;  // not that of the first group's attributes: each record has its own object's
+    for (size_t c = first; c < state_.caches.size(); ++c) {
+      if (!isIndirect(c)) continue;
+      out.samples = std::max(out.samples, gatherOf(c).samples);
+      out.maxDistance = std::max(out.maxDistance, gatherOf(c).maxDistance);
+    }
+    return out;
+  }
+
+  void prepareBounces(const std::vector<Site>& sites) {
+    const AskedLights asked = askedLights();
     std::vector<GatherPoint> points;
     for (const Site& s : sites)
       if (isIndirect(s.cache)) points.push_back(s.point);
-    if (bounces == 1 || points.empty()) return;
-    // Every gather point may look the bounce caches up. So the records there have as many rays, and as long ones, as
-    // any cache asks for, whichever pixel comes first.
-    size_t first = 0;
-    while (!isIndirect(first)) ++first;
-    GatherSettings gather = state_.caches[first].key.gather;
-    gather.subset = query->subset;  // not that of the first group's attributes: each record has its own object's
-    for (const PreparedCache& c : state_.caches) {
-      if (c.key.gather.asked) continue;
-      gather.samples = std::max(gather.samples, c.key.gather.samples);
-      gather.maxDistance = std::max(gather.maxDistance, c.key.gather.maxDistance);
-    }
+    if (asked.bounces == 1 || points.empty()) return;
     const auto start = std::chrono::steady_clock::now();
     const double raysBefore = state_.stats.lightRays();
-    state_.learnt->bounces.fill(*tools_, state_.camera, points, gather, bounces,
+    state_.learnt->bounces.fill(*tools_, state_.camera, points, gatherOfBounces(*asked.first), asked.bounces,
                                 {state_.stats, stop_, state_.checkpoint, state_.groups});
     state_.bounceCost = {state_.stats.lightRays() - raysBefore,
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
