@@ -129,8 +129,8 @@ bool readOutput(const ShadeGroup& group, const ShadePoints& points, int i, const
 }
 
 /// Writes the outputs of a hit. Where a shader ran, `shaded` has its values, as ShadeContext::outputs lists them.
-void tell(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
-          const HitQuestion& question, const HitAnswers& answers) {
+void writeOutputs(const ShadeGroup& group, const ShadePoints& points, int i, uint32_t hit, const ShadedPoints* shaded,
+                  const HitQuestion& question, const HitAnswers& answers) {
   size_t first = 0;
   for (const RayOutput& output : question.outputs) {
     const auto put = [&](int k) -> float& { return output.c[k][question.elements[hit]]; };
@@ -189,7 +189,7 @@ void RayScene::shadeHits(const std::vector<Ray>& rays, const std::vector<Hit>& h
       const vec3 color = shades ? shaded.color(p) : opacity * primitiveColor(group, points, p, "Cs", attributes.color);
       answers.opacity[i] = opacity;
       answers.color[i] = diffuse ? bled(color, attributes) : emission.empty() ? color : color + emission[k];
-      tell(group, points, p, i, shades ? &shaded : nullptr, question, answers);
+      writeOutputs(group, points, p, i, shades ? &shaded : nullptr, question, answers);
     }
   });
 }

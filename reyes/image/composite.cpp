@@ -170,7 +170,7 @@ void Compositor::resolveEach(const DeepTile& tile, const Fragment* begin, const 
     value[1] = s.color.y;
     value[2] = s.color.z;
     value[3] = meanOf(s.coverage);
-    if (!extras_.empty()) extraValues(tile, *f, value + 4);
+    if (!extras_.empty()) extraValues(tile, *f, value + kColorFloats);
   }
 }
 

@@ -29,7 +29,7 @@ class Compositor {
  public:
   Compositor(const FrameOutput& output, const Options& options, int samples);
 
-  int width() const { return 4 + static_cast<int>(extras_.size()); }
+  int width() const { return static_cast<int>(kColorFloats + extras_.size()); }
   const std::vector<ExtraFloat>& extras() const { return extras_; }
 
   ResolvedTile resolve(const DeepTile& tile);

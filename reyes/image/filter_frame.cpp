@@ -75,9 +75,10 @@ struct FrameFilter::Impl {
     for (size_t e = 0; e < extras.size(); ++e) {
       const Channel& channel = output.channels[static_cast<size_t>(extras[e].channel)];
       if (channel.sampling.reduce == Reduce::Filter)
-        addPass(channel.sampling).floats.push_back({4 + e, channel.first + extras[e].component, extras[e].fill});
+        addPass(channel.sampling)
+            .floats.push_back({kColorFloats + e, channel.first + extras[e].component, extras[e].fill});
       else if (extras[e].component == 0)
-        addReduction(channel, 4 + e);
+        addReduction(channel, kColorFloats + e);
     }
     const auto reach = [this](const WeightTable& w) {
       reachX = std::max(reachX, w.reachX);

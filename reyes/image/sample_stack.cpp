@@ -52,9 +52,9 @@ void compositeAt(const ShadedLayer& l, const LayerExtras& more, Mask covered, Sa
     const Floats v = all(more.extraValues[e]);
     const int axis = more.extras[e].component % 3;
     if (more.extras[e].composited) {
-      add(4 + e, hn::Mul(axis == 0 ? clear.x : axis == 1 ? clear.y : clear.z, v));
+      add(kColorFloats + e, hn::Mul(axis == 0 ? clear.x : axis == 1 ? clear.y : clear.z, v));
     } else {
-      float* to = values + (4 + e) * stack.lanes;
+      float* to = values + (kColorFloats + e) * stack.lanes;
       put(v, hn::And(on, hn::Eq(before, all(kInfinity))), hn::Load(kF, to), to);
     }
   }
@@ -64,9 +64,9 @@ void compositeAt(const ShadedLayer& l, const LayerExtras& more, Mask covered, Sa
   add(3, clear.mean(l.shade->coverage));
   if (more.air) {
     const vec3& color = more.air->color;
-    const Floats seen[4] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)),
-                            hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
-    for (size_t k = 0; k < 4; ++k) {
+    const Floats seen[kColorFloats] = {hn::Mul(clear.x, all(color.x)), hn::Mul(clear.y, all(color.y)),
+                                       hn::Mul(clear.z, all(color.z)), clear.mean(more.air->opacity)};
+    for (size_t k = 0; k < kColorFloats; ++k) {
       float* to = stack.air[k].data() + first;
       put(seen[k], on, hn::Load(kF, to), to);
     }
@@ -135,7 +135,7 @@ void SampleStack::reset(size_t samples, size_t floats, bool withAir) {
 }
 
 void SampleStack::addAir() {
-  for (size_t k = 0; k < 4; ++k)
+  for (size_t k = 0; k < kColorFloats; ++k)
     for (size_t i = 0; i < air[k].size(); ++i) values[k * lanes + i] += air[k][i];
 }
 

@@ -7,7 +7,9 @@
 
 namespace tomales {
 
-/// One float of a contribution beyond R G B A.
+/// The floats R G B A, with which a contribution begins.
+constexpr size_t kColorFloats = 4;
+/// One float of a contribution beyond these.
 struct ExtraFloat {
   int channel, component;  ///< Index in FrameOutput::channels, and component there.
   int variable;            ///< Index in ShadedPoints::variables.
