@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: the cubes of an octree.
+// Private to gi/cache: the cubes of an octree.
 #pragma once
 #include "reyes/base/math.h"
 

@@ -1,4 +1,4 @@
-// Private to gi/irradiance_cache: an octree of the records of a cache that no longer changes. Each leaf lists all
+// Private to gi/cache: an octree of the records of a cache that no longer changes. Each leaf lists all
 // records that may serve a place in it, so a lookup of one place goes down once. In a RecordTree, which can grow, it
 // passes by ten times as many nodes and records. Threads: find() may be called concurrently.
 #pragma once
