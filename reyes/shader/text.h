@@ -3,31 +3,101 @@
 #include <regex.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reyes/shader/shadeops.h"
 
 namespace rsl {
 
+/// A value of format(): a text, or the numbers of a float, a triple or a matrix.
+struct FormatValue {
+  std::string text;
+  std::vector<float> numbers;
+};
+
 namespace text_detail {
 
-inline std::string written(float x) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%f", static_cast<double>(x));
-  return buffer;
+inline FormatValue valueOf(float x) { return {{}, {x}}; }
+inline FormatValue valueOf(int x) { return valueOf(static_cast<float>(x)); }
+inline FormatValue valueOf(double x) { return valueOf(static_cast<float>(x)); }
+inline FormatValue valueOf(const std::string& s) { return {s, {}}; }
+inline FormatValue valueOf(Vec3 v) { return {{}, {v.x, v.y, v.z}}; }
+inline FormatValue valueOf(const Matrix& m) {
+  FormatValue out;
+  for (const auto& row : m.m) out.numbers.insert(out.numbers.end(), std::begin(row), std::end(row));
+  return out;
 }
-inline std::string written(int x) { return std::to_string(x); }
-inline std::string written(double x) { return written(static_cast<float>(x)); }
-inline std::string written(const char* s) { return s; }
-inline std::string written(const std::string& s) { return s; }
-inline std::string written(Vec3 v) { return written(v.x) + " " + written(v.y) + " " + written(v.z); }
-inline std::string written(const Matrix& m) {
+
+/// What a pattern says about one value, such as "%-8.3f". Widths and precisions are bounded, because patterns come from
+/// strangers.
+struct Layout {
+  bool left = false, zeros = false, plus = false;
+  int width = 0, precision = -1;
+  char letter = 0;  ///< 0: the pattern ends before it
+  size_t end = 0;   ///< the place behind the letter
+};
+
+inline Layout layoutAt(const std::string& pattern, size_t percent) {
+  constexpr int kMost = 200;
+  Layout out;
+  size_t i = percent + 1;
+  const auto number = [&] {
+    int n = 0;
+    for (; i < pattern.size() && pattern[i] >= '0' && pattern[i] <= '9'; ++i)
+      n = std::min(10 * n + (pattern[i] - '0'), kMost);
+    return n;
+  };
+  for (; i < pattern.size() && std::string_view("-0+ #").find(pattern[i]) != std::string_view::npos; ++i) {
+    out.left |= pattern[i] == '-';
+    out.zeros |= pattern[i] == '0';
+    out.plus |= pattern[i] == '+';
+  }
+  out.width = number();
+  if (i < pattern.size() && pattern[i] == '.') {
+    ++i;
+    out.precision = number();
+  }
+  if (i < pattern.size()) out.letter = pattern[i++];
+  out.end = i;
+  return out;
+}
+
+inline std::string padded(std::string text, const Layout& layout, bool zeros) {
+  const auto width = static_cast<size_t>(layout.width);
+  if (text.size() >= width) return text;
+  const bool hasSign = zeros && !text.empty() && (text[0] == '-' || text[0] == '+');
+  const size_t at = layout.left ? text.size() : hasSign ? 1 : 0;
+  text.insert(at, width - text.size(), zeros && !layout.left ? '0' : ' ');
+  return text;
+}
+
+inline std::string laidOut(float x, const Layout& layout) {
+  const bool whole = layout.letter == 'd' || layout.letter == 'i';
+  const int digits = whole ? 0 : layout.precision < 0 ? 6 : layout.precision;
+  const double value = whole ? std::trunc(static_cast<double>(x)) + 0.0 : static_cast<double>(x);
+  char buffer[512];
+  if (layout.letter == 'g')
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  else if (layout.letter == 'e')
+    std::snprintf(buffer, sizeof buffer, "%.*e", digits, value);
+  else
+    std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
+  std::string text = buffer;
+  if (layout.plus && text[0] != '-') text.insert(0, "+");
+  return padded(std::move(text), layout, layout.zeros && std::isfinite(x));
+}
+
+inline std::string laidOut(const FormatValue& value, const Layout& layout) {
+  if (value.numbers.empty())
+    return padded(value.text.substr(0, static_cast<size_t>(layout.precision)), layout, false);  // -1: all of it
   std::string out;
-  for (const auto& row : m.m)
-    for (const float x : row) out += (out.empty() ? "" : " ") + written(x);
+  for (const float x : value.numbers) out += (out.empty() ? "" : " ") + laidOut(x, layout);
   return out;
 }
 
@@ -39,27 +109,31 @@ std::string concat(const Parts&... parts) {
 }
 
 /// %f stands for a float, %d for a number without its fraction, %c for a colour, %p for a point, vector or normal, %m
-/// for a matrix, %s for a string. A value is written by its own type, even if the letter differs. %% is a percent sign.
-/// A letter for which no value is left stays as it is. `values` are already converted to texts.
-inline std::string formatTexts(const std::string& pattern, const std::vector<std::string>& values) {
+/// for a matrix, %s for a string; %e and %g are those of C. A value is written by its own type, even if the letter
+/// differs. As in C, width and precision may stand before the letter ("%04d", "%.2f", "%-8s"); they hold for each
+/// number of a value. %% is a percent sign. A letter for which no value is left stays as it is.
+inline std::string formatValues(const std::string& pattern, const std::vector<FormatValue>& values) {
   std::string out;
   size_t next = 0;
-  for (size_t i = 0; i < pattern.size(); ++i) {
-    const bool letter = pattern[i] == '%' && i + 1 < pattern.size();
-    if (letter && pattern[i + 1] != '%' && next < values.size()) {
-      const std::string& value = values[next++];
-      const bool whole = pattern[++i] == 'd' && value.find_first_not_of("-0123456789.") == value.npos;
-      out += whole ? value.substr(0, value.find('.')) : value;
+  for (size_t i = 0; i < pattern.size();) {
+    if (pattern.compare(i, 2, "%%") == 0) {
+      out += '%';
+      i += 2;
+      continue;
+    }
+    const text_detail::Layout layout = pattern[i] == '%' ? text_detail::layoutAt(pattern, i) : text_detail::Layout();
+    if (layout.letter != 0 && next < values.size()) {
+      out += text_detail::laidOut(values[next++], layout);
+      i = layout.end;
     } else {
-      out += pattern[i];
-      i += letter && pattern[i + 1] == '%';
+      out += pattern[i++];
     }
   }
   return out;
 }
 template <class... Values>
 std::string format(const std::string& pattern, const Values&... values) {
-  return formatTexts(pattern, {text_detail::written(values)...});
+  return formatValues(pattern, {text_detail::valueOf(values)...});
 }
 
 namespace text_detail {

@@ -35,30 +35,27 @@ void concat(Run& run, const PreparedInstruction& s) {
   setText(run, s, std::move(all));
 }
 
-/// Returns a register's value at a point, as format() writes it, with spaces between the elements of arrays.
-std::string written(const Run& run, int32_t r, int32_t i) {
+/// Returns a register's value at a point. The elements of an array are one value.
+rsl::FormatValue valueAt(const Run& run, int32_t r, int32_t i) {
   const Register& reg = run.reg(r);
-  std::string out;
+  rsl::FormatValue out;
   for (int32_t e = 0; e < elementsOf(reg); ++e) {
-    if (e > 0) out += ' ';
     if (reg.shape == Shape::Text) {
-      out += run.text(r, e);
+      out.text += (e > 0 ? " " : "") + run.text(r, e);
       continue;
     }
     const int32_t width = floatsOf(reg);
-    for (int32_t c = 0; c < width; ++c) {
-      const float x =
-          run.lane(r).data[(e * width + c) * static_cast<ptrdiff_t>(run.stride(r)) + (run.varies(r) ? i : 0)];
-      out += (c > 0 ? " " : "") + rsl::text_detail::written(x);
-    }
+    for (int32_t c = 0; c < width; ++c)
+      out.numbers.push_back(
+          run.lane(r).data[(e * width + c) * static_cast<ptrdiff_t>(run.stride(r)) + (run.varies(r) ? i : 0)]);
   }
   return out;
 }
 
 std::string formatted(const Run& run, const Instruction& of, int32_t i) {
-  std::vector<std::string> values;
-  for (size_t k = 1; k < of.in.size(); ++k) values.push_back(written(run, of.in[k], i));
-  return rsl::formatTexts(run.text(of.in[0]), values);
+  std::vector<rsl::FormatValue> values;
+  for (size_t k = 1; k < of.in.size(); ++k) values.push_back(valueAt(run, of.in[k], i));
+  return rsl::formatValues(run.text(of.in[0]), values);
 }
 
 void format(Run& run, const PreparedInstruction& s) { setText(run, s, formatted(run, *s.of, run.firstActive())); }
