@@ -13,6 +13,10 @@ namespace tomales::rib {
 namespace {
 
 bool isBlank(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+/// Tells whether a line ends here: at the '\n' of Unix and DOS, or at the '\r' of the old Macintosh.
+bool endsLine(const char* at, const char* last) {
+  return *at == '\n' || (*at == '\r' && at + 1 < last && at[1] != '\n');
+}
 bool isWord(int c) { return c > ' ' && c < 0x7f && c != '"' && c != '[' && c != ']' && c != '#'; }
 
 void append(std::vector<float>& out, const ScannedNumber& n) { out.push_back(n.narrow); }
@@ -61,7 +65,7 @@ void Lexer::advancePastNumbers() {
   const auto isWithin = [](char c) { return kWithin[static_cast<unsigned char>(c)]; };
   while (stream_.peek() != ByteStream::kEnd && isWithin(*stream_.begin())) {
     const char* const end = std::find_if_not(stream_.begin(), stream_.end(), isWithin);
-    line_ += static_cast<int>(std::count(stream_.begin(), end, '\n'));
+    for (const char* p = stream_.begin(); p != end; ++p) line_ += endsLine(p, stream_.end());
     stream_.skipTo(end);
   }
   advance();
@@ -128,7 +132,7 @@ void Lexer::takeWrittenNumbers(std::vector<T>& out) {
   ScannedNumber number;
   for (const char* q = p; q < last;) {
     if (isBlank(*q)) {
-      lines += *q++ == '\n';
+      lines += endsLine(q++, last);
       continue;
     }
     q = scanEverydayNumber(q, last, number);
@@ -146,18 +150,19 @@ void Lexer::skipBlanks() {
       skipComment();
       continue;
     }
-    line_ += c == '\n';
     stream_.get();
+    line_ += c == '\n' || (c == '\r' && stream_.peek() != '\n');
   }
 }
 
 void Lexer::skipComment() {
   std::string text;
-  for (int c = stream_.get(); c != '\n'; c = stream_.get()) {
+  for (int c = stream_.peek(); c != '\n' && c != '\r'; c = stream_.peek()) {
     if (c == ByteStream::kEnd) return;
     if (text.size() < kLongestWord) text += static_cast<char>(c);
+    stream_.get();
   }
-  ++line_;
+  skipLineEnd();
   int line = 0, begin = 0;
   const size_t end = text.rfind('"');
   if (std::sscanf(text.c_str(), "#line %9d \"%n", &line, &begin) != 1 || begin == 0 || end < static_cast<size_t>(begin))
@@ -165,6 +170,11 @@ void Lexer::skipComment() {
   line_ = line;
   file_ =
       std::make_shared<const std::string>(text.substr(static_cast<size_t>(begin), end - static_cast<size_t>(begin)));
+}
+
+void Lexer::skipLineEnd() {
+  if (stream_.get() == '\r' && stream_.peek() == '\n') stream_.get();
+  ++line_;
 }
 
 void Lexer::readString() {
@@ -186,12 +196,11 @@ void Lexer::readString() {
 
 // Reads the escapes of C strings that RISpec names: \n \r \t \b \f \\ \" \ooo, and a line end, which is skipped.
 void Lexer::readEscape() {
-  const int c = stream_.get();
   static constexpr std::string_view kLetters = "nrtbf", kMeanings = "\n\r\t\b\f";
+  if (stream_.peek() == '\n' || stream_.peek() == '\r') return skipLineEnd();
+  const int c = stream_.get();
   if (c == ByteStream::kEnd) return;
-  if (c == '\n') {
-    ++line_;
-  } else if (c >= '0' && c <= '7') {
+  if (c >= '0' && c <= '7') {
     int code = c - '0';
     for (int i = 0; i < 2 && stream_.peek() >= '0' && stream_.peek() <= '7'; ++i)
       code = code * 8 + (stream_.get() - '0');

@@ -58,6 +58,7 @@ class Lexer {
   bool readToken();
   void skipBlanks();
   void skipComment();
+  void skipLineEnd();
   void readString();
   void readEscape();
   void readWord();

@@ -17,6 +17,36 @@ std::vector<Token> tokens(const std::string& text) {
   return out;
 }
 
+TEST(Lexer, EndsCommentsAndCountsLinesWhereUnixDosAndTheOldMacintoshEndThem) {
+  for (const char* const end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char* const line : {"##RenderMan RIB", "Color # red", "[1 2", "", "3 4]", "Sphere \"a\\", "b\""})
+      text += std::string(line) + end;
+    const auto list = tokens(text);
+    ASSERT_FALSE(list.empty()) << text;
+    EXPECT_EQ(list.front().text, "Color") << text;
+    EXPECT_EQ(list.front().line, 2) << text;
+    EXPECT_EQ(list.back().text, "ab") << text;
+    EXPECT_EQ(list.back().line, 6) << text;
+  }
+}
+
+TEST(Lexer, CountsTheLinesOfNumbersThatItSkipsOrTakesAsTheFileEndsThem) {
+  for (const char* const end : {"\n", "\r\n", "\r"}) {
+    const std::string text = std::string("1") + end + "2" + end + end + "3" + end + "Color";
+    const auto stream = ByteStream::fromMemory(text);
+    Lexer skips(*stream, "scene.rib");
+    skips.advancePastNumbers();
+    EXPECT_EQ(skips.peek().line, 5) << text;
+    const auto again = ByteStream::fromMemory(text);
+    Lexer takes(*again, "scene.rib");
+    std::vector<float> numbers;
+    takes.takeNumbers(numbers);
+    EXPECT_EQ(numbers.size(), 3u) << text;
+    EXPECT_EQ(takes.peek().line, 5) << text;
+  }
+}
+
 TEST(Lexer, ReadsNumbersInEveryWriting) {
   const std::string text = "1 -2 +3 .5 -.5 4. 1e3 1E-3 +1.5e+2 007";
   const double expected[] = {1, -2, 3, .5, -.5, 4, 1000, .001, 150, 7};
