@@ -33,9 +33,16 @@ void write(const Run& run, int32_t to, int32_t i, ptrdiff_t c, float x) {
     std::fill_n(out, kBlock, x);
 }
 
+rsl::ColorSpace colorSpace(Run& run, int32_t name) {
+  const std::string& space = run.text(name);
+  const rsl::ColorSpace out = rsl::colorSpaceOf(space);
+  if (out == rsl::ColorSpace::Rgb && space != "rgb")
+    run.warn("names the color space \"" + space + "\", which there is not; it counts as rgb");
+  return out;
+}
+
 void colorTransform(Run& run, const PreparedInstruction& s) {
-  const rsl::ColorSpace from = rsl::colorSpaceOf(run.text(s.of->in[0])),
-                        into = rsl::colorSpaceOf(run.text(s.of->in[1]));
+  const rsl::ColorSpace from = colorSpace(run, s.of->in[0]), into = colorSpace(run, s.of->in[1]);
   const int32_t to = s.of->out[0];
   const Reader color(run, s.of->in[2]);
   for (int32_t i = 0; i < pointsOf(run, to); ++i) {
