@@ -87,6 +87,16 @@ const uint8_t* litPoints(Batch& place, const TmGrid* g, const TmIlluminance& con
   return lit;
 }
 
+/// Tells whether light comes from behind some of the points, as to cloth that is lit through.
+bool comesFromBehind(const Batch& place, const TmGrid* g, const uint8_t* lit, const LightSample& sample) {
+  if (!place.points || place.points->inAir()) return false;
+  for (int i = 0; i < place.points->count(); ++i)
+    if (g->active[i] && lit[i] && dot(place.points->facingNormal(i), get(sample.L, i)) <= 0 &&
+        get(sample.Cl, i) != vec3(0.0f))
+      return true;
+  return false;
+}
+
 /// RISpec 15.6 defines diffuse() by illuminance(P, N, PI/2).
 void diffuse(void* host, const TmGrid* all, int32_t which, TmConstVec3 N, TmVec3 out) {
   Batch& batch = batchOf(host);
@@ -135,6 +145,8 @@ int32_t illuminance(void* host, const TmGrid* g, TmIlluminance* out) {
   const Primary primary(batch, g);
   const uint8_t* lit = litPoints(place, primary.grid(), query, sample);
   place.lights.shadow(place, sample, lit);
+  if (batch.context.kind == RayKind::Camera && !sample.fromBehind)
+    sample.fromBehind = comesFromBehind(place, primary.grid(), lit, sample);
   const bool distant = sample.light->can(TM_LIGHT_SOLAR) || sample.light->can(TM_LIGHT_INDIRECT);
   const TmVec3 L = distant ? sample.L : sample.far;
   primary.spread(L);

@@ -81,7 +81,8 @@ void LightUse::follow(const Batch& batch, const LightSample& sample, Use& use) {
   for (int i = 0; i < batch.points->count(); ++i) {
     const bool sent = get(sample.Cl, i) != vec3(0.0f), traced = sample.pending && !sample.pending[i];
     if (!sent && !traced) continue;
-    const bool faces = sample.pending ? traced : dot(batch.points->facingNormal(i), get(sample.L, i)) > 0;
+    const bool faces =
+        sample.pending ? traced : sample.fromBehind || dot(batch.points->facingNormal(i), get(sample.L, i)) > 0;
     // The places of an area light differ, and which of them is seen first depends on threads.
     if (!use.bright.exchange(true) && !sample.rays.solar && !sample.light->can(TM_LIGHT_AREA)) {
       const std::lock_guard lock(mutex_);

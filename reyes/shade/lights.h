@@ -60,8 +60,9 @@ struct LightSample {
   TmVec3 far{};                     ///< L at full length, for points and their neighbours.
   const TmValue* params = nullptr;  ///< The parameters of this run of its shader, outputs included.
   const float *nondiffuse = nullptr, *nonspecular = nullptr;  ///< The light's outputs of these names.
-  TmConstVec3 Pl{}, Nl{};  ///< The points on a light with geometry, as its shader saw them.
-  bool drawn = false;      ///< Each point has drawn a light of its own; Cl is 0 at points that have drawn none.
+  TmConstVec3 Pl{}, Nl{};   ///< The points on a light with geometry, as its shader saw them.
+  bool fromBehind = false;  ///< An illuminance statement has seen its light at a point that faces away from it.
+  bool drawn = false;       ///< Each point has drawn a light of its own; Cl is 0 at points that have drawn none.
 };
 
 class Lights {

@@ -169,4 +169,18 @@ for name, lamp in (("ball", AREA), ("point", POINT)):
     beams.append([seen[x, 0][0] for x in range(64)])
 worst = max(abs(a - b) for a, b in zip(*beams)) / max(beams[1])
 t.expect(worst < 0.03 and max(beams[1]) > 0 and beams[0][2] == 0, f"a lamp with a cone is a spotlight: {worst:.4f} off {beams[0][::8]} {beams[1][::8]}")
+
+# --- A lamp behind cloth is of use where the shader asks for light from there, and of none where it does not.
+CLOTH = """Projection "orthographic"
+WorldBegin
+LightSource "distantlight" 1 "from" [0 0 1] "to" [0 0 0]
+Surface "%s"
+Polygon "P" [-1 -1 5  -1 1 5  1 1 5  1 -1 5]
+WorldEnd
+"""
+for name, asked, useless in (("through", "P", False), ("backlit", "P, -N, PI / 2", False), ("front", "P, N, PI / 2", True)):
+    t.write(name + ".sl", f"surface {name}() {{ Oi = 1; Ci = 0; illuminance({asked}) Ci += Cl; }}\n")
+    t.write(name + ".rib", CLOTH % name)
+    result = t.expect_run(f"a lamp behind the surface {name}", [name + ".rib", "-o", name + ".exr", "--format", "16x16"], 0)
+    t.expect(("[light-useless]" in result.stderr) == useless, f"a lamp behind the surface {name} is called useless: {useless} ({result.stderr[:300]})")
 t.finish()
