@@ -29,11 +29,13 @@ void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int 
   const bool point = p.type == ValueType::Point, vector = p.type == ValueType::Vector,
              normal = p.type == ValueType::Normal;
   if (!point && !vector && !normal) return;
+  // Orientation turns the normals of the surface, and says nothing of other variables.
+  const mat3 ofNormals = normal && p.name != "N" ? glm::transpose(glm::inverse(mat3(m))) : normals;
   for (int first = 0; first + 2 < p.width; first += 3)
     for (int i = 0; i < n; ++i) {
       float* x = values + first * stride + i;
       const vec3 in(x[0], x[stride], x[2 * stride]);
-      const vec3 out = point ? transformPoint(m, in) : vector ? transformVector(m, in) : normals * in;
+      const vec3 out = point ? transformPoint(m, in) : vector ? transformVector(m, in) : ofNormals * in;
       x[0] = out.x;
       x[stride] = out.y;
       x[2 * stride] = out.z;

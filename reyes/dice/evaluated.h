@@ -74,7 +74,8 @@ void evaluateAt(const Object& o, float time, int n, Evaluated& out, const Evalua
 /// Returns the matrix that transforms normals: the cofactors of m, negated if the object flips its normals. Cofactors
 /// are right at any scale. Under a mirror they change sides, as the cross product of transformed derivatives does.
 mat3 normalMatrix(const Object& o, const mat4& m);
-/// Transforms a primitive variable from object space to current space.
+/// Transforms a primitive variable from object space to current space. `normals` is for N alone; others of type normal
+/// are transformed as parameters of shaders are.
 void transformPrimvar(const Primvar& p, const mat4& m, const mat3& normals, int n, float* values, int stride);
 
 }  // namespace tomales

@@ -133,6 +133,13 @@ for space, point, vector in (('"current"', (1, 2, 3), (1, 2, 3)), ('"world"', (1
 # A matrix holds the space: transform() by the matrix of "current" changes nothing.
 expect("in_current", f'Translate 5 0 0 Rotate 90 0 0 1 Surface "in_current" "float which" [3] Rotate -90 0 0 1 Translate -5 0 0 {PATCH}', lambda x, y: (1, 2, 3),
        'a default matrix "current" 1')
+# A normal is the same whether a request or a primitive brings it. Neither the surface's orientation nor a scale's size takes part.
+t.write("brought.sl", "surface brought(varying normal n = 0) { Oi = 1; Ci = color (comp(n, 0), comp(n, 1), comp(n, 2)); }\n")
+for turned in ("", "ReverseOrientation", 'Orientation "inside"'):
+    for kind, wanted in (("Scale 2 1 1", (.5, 2, 3)), ("Scale -1 1 1", (-1, 2, 3)), ("Rotate 90 0 0 1", (-2, 1, 3)), ("Scale 2 2 2", (.5, 1, 1.5))):
+        back = {"Scale 2 1 1": "Scale .5 1 1", "Scale -1 1 1": "Scale -1 1 1", "Rotate 90 0 0 1": "Rotate -90 0 0 1", "Scale 2 2 2": "Scale .5 .5 .5"}[kind]
+        expect("brought", f'{kind} {turned} Surface "brought" "normal n" [1 2 3] {back} {PATCH}', lambda x, y: wanted, f"a normal of a shader after {kind} {turned}")
+        expect("brought", f'{kind} {turned} Surface "brought" {PATCH} "constant normal n" [1 2 3]', lambda x, y: wanted, f"a normal of a primitive after {kind} {turned}")
 t.write("moons.sl", "surface moons(uniform point shade = point \"current\" (.6, .5, 0)) { float d = distance(shade, (s, t, 0)); Oi = 1; Ci = d; }\n")
 expect("moons", f'Surface "moons" {PATCH}', lambda x, y: (math.hypot((1 + x) / 2 - .6, (1 - y) / 2 - .5),) * 3, "a point of texture space, as patterns have it")
 
