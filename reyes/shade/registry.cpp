@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/missing_file.h"
 #include "reyes/base/near_names.h"
 #include "reyes/base/plugin_trust.h"
@@ -118,7 +119,7 @@ const TmShader* ShaderRegistry::Impl::keep(const RslFound& found) {
 /// Reports a name with folders of which only the last part was found.
 void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslFound& found) {
   const std::string written = withoutShaderEnding(name);
-  if (!fs::path(written).has_parent_path() || found.file.ends_with(written + ".sl")) return;
+  if (lastPartOf(written).empty() || found.file.ends_with(written + ".sl")) return;
   log.report(Severity::Note, "shader-elsewhere", {},
              fmt::format("shader \"{}\" is not there; {} is taken, which has its name", name, found.file), name);
 }

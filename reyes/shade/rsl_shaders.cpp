@@ -12,6 +12,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "reyes/base/file_guesses.h"
 #include "reyes/base/input_file.h"
 #include "reyes/base/parallel.h"
 #include "reyes/base/text.h"
@@ -169,20 +170,32 @@ void addHolders(const std::vector<fs::path>& sources, const std::string& name, s
     if (names().has(file.string(), name)) out.push_back(file.string());
 }
 
+/// Returns the last part of a name that has folders before it, and else all of it.
+std::string withoutFolders(const std::string& name) {
+  const std::string last = lastPartOf(name);
+  return last.empty() ? name : last;
+}
+
 std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& folders) {
   std::vector<std::string> out;
   std::error_code none;
   Folders all;
-  const std::string shader = fs::path(name).filename().string();
-  for (const std::string& folder : folders) {
-    const fs::path file = fs::path(folder) / (name + ".sl");
-    if (!fs::is_regular_file(file, none)) continue;
-    // Other compilers name what they make after the shader, so a file's name means less than the shader's.
-    if (names().hasOthers(file.string(), shader)) addHolders(all.sourcesIn(file.parent_path().string()), shader, out);
-    out.push_back(file.string());
-  }
+  const std::string shader = withoutFolders(name);
+  const auto take = [&](const std::string& meant) {
+    for (const std::string& folder : folders) {
+      const fs::path file = fs::path(folder) / meant;
+      if (!fs::is_regular_file(file, none)) continue;
+      // Other compilers name what they make after the shader, so a file's name means less than the shader's.
+      if (names().hasOthers(file.string(), shader)) addHolders(all.sourcesIn(file.parent_path().string()), shader, out);
+      out.push_back(file.string());
+    }
+  };
+  take(name + ".sl");
+  // Exporters name files relative to the folder of the project, or by the folders of their machine.
+  if (out.empty())
+    for (const std::string& end : pathSuffixes(name + ".sl", folders))
+      if (out.empty()) take(end);
   if (!out.empty()) return out;
-  // Exporters name files relative to the folder of the project.
   if (shader != name) return candidates(shader, folders);
   for (const std::string& folder : folders) {
     const std::vector<fs::path> here = all.sourcesIn(folder);
@@ -192,14 +205,6 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
       if (lowerCase(file.stem().string()) == lowerCase(name)) out.push_back(file.string());
   }
   return out;
-}
-
-/// Returns the form in which files have a request's name.
-std::string nameInFolders(const std::string& written) {
-  const std::string name = withoutShaderEnding(written);
-  const fs::path path(name);
-  // A scene may come from another machine: its shader may lie in the folders.
-  return path.is_absolute() || name.find("..") != std::string::npos ? path.filename().string() : name;
 }
 
 /// Returns the file of a shader that another renderer has compiled, where there is no .sl.
@@ -225,7 +230,7 @@ std::vector<std::string> filesOfRslFile(const std::string& file) { return files(
 
 RslFound findRslShader(const std::string& written, TmKind kind, const std::vector<std::string>& folders,
                        const FunctionsOfFolders& functions) {
-  const std::string name = nameInFolders(written), shaderName = fs::path(name).filename().string();
+  const std::string name = withoutShaderEnding(written), shaderName = withoutFolders(name);
   RslFound out;
   for (const std::string& file : candidates(name, folders)) {
     const std::shared_ptr<const RslFile> compiled = files().compiled(file, folders, functions);
@@ -261,7 +266,7 @@ RslFound findRslShader(const std::string& written, TmKind kind, const std::vecto
 void compileRslShaders(const std::vector<RslRequest>& requests, const FunctionsOfFolders& functions) {
   std::set<std::pair<std::string, std::vector<std::string>>> wanted;
   for (const RslRequest& r : requests)
-    if (const auto found = candidates(nameInFolders(r.name), r.folders); !found.empty())
+    if (const auto found = candidates(withoutShaderEnding(r.name), r.folders); !found.empty())
       wanted.emplace(found.front(), r.folders);
   const std::vector<std::pair<std::string, std::vector<std::string>>> each(wanted.begin(), wanted.end());
   parallelFor(each.size(), 1,

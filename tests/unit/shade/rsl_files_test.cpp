@@ -54,6 +54,31 @@ TEST_F(RslFiles, AreFoundByTheNameOfTheFileWhateverFolderOrEndingIsWritten) {
   EXPECT_EQ(nameOf(find(".sl")), "none");
 }
 
+TEST_F(RslFiles, AreTakenFromWhereTheirNamesSayThatTheyLie) {
+  write("paint.sl", "surface paint(float b = 1;) {}");
+  const std::string other = folder + "_other";
+  fs::create_directories(other);
+  std::ofstream(other + "/paint.sl") << kPaint;
+  for (const std::string& name : {other + "/paint", "../" + fs::path(other).filename().string() + "/paint.slo"}) {
+    const TmShader* const shader = find(name);
+    ASSERT_TRUE(shader) << name;
+    EXPECT_STREQ(shader->params[0].name, "a") << name;
+  }
+  EXPECT_EQ(said(), "");
+}
+
+TEST_F(RslFiles, OfAnotherMachineAreSoughtByTheEndsOfTheirNames) {
+  fs::create_directories(folder + "/looks/wet");
+  write("looks/wet/paint.sl", kPaint);
+  for (const char* name : {"/home/ann/looks/wet/paint", "C:\\scenes\\looks\\wet\\paint.slo"}) {
+    Log said;
+    ShaderRegistry later(said);
+    EXPECT_EQ(nameOf(findBy(later, name)), "paint") << name;
+    EXPECT_NE(saidIn(said).find("shader-elsewhere"), std::string::npos) << name;
+  }
+  EXPECT_EQ(nameOf(find("/home/ann/wet/paint")), "none");
+}
+
 TEST_F(RslFiles, OfTheFirstFolderComeFirst) {
   write("sub/paint.sl", "surface paint(float b = 1;) {}");
   EXPECT_STREQ(find("paint")->params[0].name, "b");
