@@ -55,6 +55,7 @@ void Parser::fail(std::string text, const std::vector<std::string>& known) {
   if (t.kind == TokenKind::Name && (t.text == "class" || t.text == "struct")) refuseRsl2(t, inQuotes(t.text));
   if (t.is("->")) refuseRsl2(t, "'->'");
   if (t.is("&") || t.is("|")) failAt(t, fmt::format("RSL has no '{0}'; '{0}{0}' joins conditions", t.text));
+  if (t.is("%")) failAt(t, "RSL has no '%'; mod(x, y) is the remainder");
   if (t.is("*") && at_ > 0 && tokens_[at_ - 1].is("*")) failAt(t, "RSL has no '**'; pow(x, y) is the power");
   text += " before " + described(t);
   const std::vector<std::string> near =
