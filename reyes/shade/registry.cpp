@@ -189,7 +189,18 @@ const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kin
   }
   for (const std::string& file : others)
     refuse(file, fmt::format("has no {} \"{}\", but {}", kindName(kind), name, heldBy(file)));
-  return nullptr;
+  return standardNameWithFolders(name, kind);
+}
+
+/// Returns the built-in shader of RISpec's that a name means which has folders of another machine before it.
+const TmShader* ShaderRegistry::Impl::standardNameWithFolders(const std::string& name, TmKind kind) {
+  const TmShader* const meant = known(lastPartOf(withoutShaderEnding(name)), kind);
+  if (!meant || !isOfSpecification(meant->name) || builtIn.count(meant) == 0) return nullptr;
+  log.report(
+      Severity::Note, "shader-elsewhere", {},
+      fmt::format("shader \"{}\" is not there; the built-in \"{}\" is taken, which has its name", name, meant->name),
+      name);
+  return meant;
 }
 
 const TmShader* ShaderRegistry::Impl::found(const std::string& name, TmKind kind, const std::string& searchPath,

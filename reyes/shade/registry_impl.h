@@ -66,6 +66,7 @@ struct ShaderRegistry::Impl {
   bool comesBeforeTexts(const TmShader& s) const {
     return !builtIn.count(&s) || (!standardFromFiles.value_or(false) && isOfSpecification(s.name));
   }
+  const TmShader* standardNameWithFolders(const std::string& name, TmKind kind);
   void tellOfOtherFolder(const std::string& name, const RslFound& found);
   const TmShader* keep(const RslFound& found);
   void tellOfStandardName(const TmShader& used, const std::string& file, const std::string& because = {},

@@ -79,6 +79,18 @@ TEST_F(RslFiles, OfAnotherMachineAreSoughtByTheEndsOfTheirNames) {
   EXPECT_EQ(nameOf(find("/home/ann/wet/paint")), "none");
 }
 
+TEST_F(RslFiles, ThatAreNotThereAndHaveAStandardNameBehindTheirFoldersAreBuiltIn) {
+  for (const char* name : {"shaders/matte", "/opt/lib/shaders/matte.slo", "C:\\lib\\matte.slo"}) {
+    EXPECT_EQ(nameOf(find(name)), "matte") << name;
+    EXPECT_TRUE(says("shader \"" + std::string(name) + "\" is not there; the built-in \"matte\" is taken")) << said();
+  }
+  EXPECT_EQ(nameOf(find("shaders/disney")), "none") << "another renderer's looks different";
+  EXPECT_EQ(nameOf(find("shaders/matte", TM_LIGHT)), "none");
+  write("sub/matte.sl", "surface matte(float mine = 1) {}");
+  ShaderRegistry later(log);
+  EXPECT_STREQ(findBy(later, "shaders/matte")->params[0].name, "mine") << "a file comes first";
+}
+
 TEST_F(RslFiles, OfTheFirstFolderComeFirst) {
   write("sub/paint.sl", "surface paint(float b = 1;) {}");
   EXPECT_STREQ(find("paint")->params[0].name, "b");
