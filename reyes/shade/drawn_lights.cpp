@@ -138,8 +138,7 @@ void sampleEmitters(Batch& batch, const LightSet& drawn, const std::vector<Light
     const vec2 xi = sampleAt(batch, light, i, l.sample, l.samples);
     xi0[i] = xi.x;
     xi1[i] = xi.y;
-    if (!batch.scene.services->sampleEmitter(light.index, 1, from(view(g.P), i), xi0 + i, xi1 + i, from(points, i)))
-      continue;
+    batch.scene.services->sampleEmitter(light.index, 1, from(view(g.P), i), xi0 + i, xi1 + i, from(points, i));
     points.pdf[i] *= l.expected;
     points.meetPdf[i] *= l.expected;
     set(g.L, i, get(g.Pl, i) - get(g.P, i));

@@ -193,7 +193,7 @@ int32_t answerRenderer(Batch& batch, std::string_view name, int32_t* type, TmVal
 /// by point; strings are those of the first point, and so are values that the two volumes tell in different types.
 int32_t answerVolume(Batch& batch, const TmGrid* g, bool incident, std::string_view name, int32_t* type, TmValue* out) {
   TmValue side[2];
-  int32_t types[2] = {-1, -1};
+  int32_t types[2] = {};
   const bool has[2] = {answerOther(batch, batch.group.exterior, name, &types[0], &side[0]) != 0,
                        answerOther(batch, batch.group.interior, name, &types[1], &side[1]) != 0};
   const auto inside = [&](int i) { return (dot(get(g->I, i), get(g->Ng, i)) > 0) == incident; };

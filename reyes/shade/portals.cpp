@@ -54,17 +54,17 @@ float Portals::share(const vec3& P, const vec3& N) const { return weights(P, N) 
 
 vec3 Portals::sample(const vec3& P, const vec3& N, vec2 xi) const {
   float left = xi.x * weights(P, N);
-  size_t last = 0;
-  for (size_t k = 0; k < portals_.size(); ++k) {
-    const float weight = weightOf(portals_[k], P, N);
+  const Portal* chosen = nullptr;
+  for (const Portal& p : portals_) {
+    const float weight = weightOf(p, P, N);
     if (!(weight > 0)) continue;
-    last = k;
+    chosen = &p;
     xi.x = std::min(left / weight, 1.0f);
     if (left < weight) break;
     left -= weight;
   }
-  const Portal& p = portals_[last];
-  return normalizeOr(p.corner + xi.x * p.u + xi.y * p.v - P, normalizeOr(p.normal, p.normal));
+  return normalizeOr(chosen->corner + xi.x * chosen->u + xi.y * chosen->v - P,
+                     normalizeOr(chosen->normal, chosen->normal));
 }
 
 float Portals::pdf(const vec3& P, const vec3& N, const vec3& L) const {

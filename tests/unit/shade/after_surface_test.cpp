@@ -103,6 +103,24 @@ TEST_F(Atmosphere, DepthcueWithoutClippingSaysWhyItDoesNothing) {
   EXPECT_EQ(log.entries().size(), 1u);
 }
 
+void choke(const TmGrid* g) {
+  g->Ci.x[0] = 77;
+  throw std::runtime_error("no air");
+}
+
+TEST_F(Atmosphere, OneThatThrowsChangesNothing) {
+  static const rsl::Shader choking(TM_VOLUME, "choking", "", 0, choke, {});
+  static const TmShader* const shaders[] = {choking};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  atmosphere("choking");
+  attributes.opacity = vec3(0.5f);
+  const ShadedPoints out = seen({0, 0, 8});
+  expectColor(out.color(0), vec3(0.25f), 0);
+  EXPECT_TRUE(out.airCi[0].empty());
+  EXPECT_EQ(log.count("shader-exception"), 1);
+}
+
 TEST_F(Atmosphere, AnUnknownOneIsReportedAndTheAirIsClear) {
   atmosphere("nosuch");
   expectColor(seen({0, 0, 8}).color(0), vec3(0.5f));

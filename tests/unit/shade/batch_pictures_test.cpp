@@ -138,6 +138,32 @@ TEST_F(BatchPictures, AShadowOfFourCornersIsTheMeanBetweenThem) {
   EXPECT_TRUE(log.entries().empty());
 }
 
+// A map of a plane at depth 1, which hides what is further away than its bias.
+TEST_F(BatchPictures, OptionsGiveTheBiasOfShadowsThatNameNone) {
+  const std::string path =
+      writePicture(test::temporary("tomales_plane.exr"), 64, 64, "Z", [](int, int) { return std::array{1.0f}; },
+                   {{"worldToCamera", mat4(1)}, {"worldToScreen", mat4(1)}});
+  const auto hidden = [&](const std::vector<std::pair<std::string, float>>& options) {
+    scene.options.user.clear();
+    for (const auto& [name, value] : options) scene.options.user["shadow:" + name] = number(name, value);
+    shading.reset();
+    scene.objects.clear();
+    const std::vector<vec3> c = asked(400, [&](sl::Surface& s) {
+      const Point behind(0, 0, 1.05);
+      s.Ci = Color(xcomp(shadow(path.c_str(), behind)), xcomp(shadow(path.c_str(), behind, "bias", 0.01)), 0);
+    });
+    vec3 mean(0);
+    for (size_t i = 0; i < 200; ++i) mean += c[i] / 200.0f;
+    EXPECT_NEAR(mean.y, 1, 1e-5f) << "it names its own";
+    return mean.x;
+  };
+  EXPECT_NEAR(hidden({}), 1, 1e-5f);
+  EXPECT_FLOAT_EQ(hidden({{"bias", 0.1f}}), 0);
+  EXPECT_FLOAT_EQ(hidden({{"bias0", 0.1f}, {"bias1", 0.2f}}), 0);
+  EXPECT_NEAR(hidden({{"bias0", 0.1f}}), 1, 1e-5f) << "one of the two says nothing";
+  EXPECT_NEAR(hidden({{"bias0", 0}, {"bias1", 0.2f}}), 0.25f, 0.1f) << "each point has its own between the two";
+}
+
 TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
   const std::string path = stepPicture("tomales_step.exr");
   scene.options.user["texture:width"] = number("width", 2);
@@ -150,6 +176,15 @@ TEST_F(BatchPictures, AnOptionScalesAllTextureFilters) {
 
 // Three quarters of the way from a texel of 0 to one of 1: linear, and by the cubic B-spline of filters that are not
 // boxes.
+TEST_F(BatchPictures, OneThatLiesElsewhereIsTakenAndTold) {
+  const std::string path = stepPicture("tomales_moved.tif");
+  scene.options.searchPaths["texture"] = std::filesystem::path(path).parent_path().string();
+  const std::vector<vec3> c =
+      asked(2, [](sl::Surface& s) { s.Ci = Color(meanOver("/nowhere/tomales_moved.tif", 0.7, 0.8), 0, 0); });
+  EXPECT_NEAR(c[0].x, 1, 0.01f);
+  EXPECT_EQ(log.count("texture-elsewhere"), 1);
+}
+
 TEST_F(BatchPictures, AnOptionNamesTheFilterOfLookupsThatNameNone) {
   const std::string path = stepPicture("tomales_edge.tif");
   scene.options.user["texture:filter"] = text("filter", "gaussian");

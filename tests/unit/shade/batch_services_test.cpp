@@ -226,9 +226,18 @@ TEST_F(BatchServices, OptionsAreToldAsTheSceneHasThem) {
   scene.options.xSamples = 3;
   scene.options.ySamples = 5;
   scene.options.frame = 17;
-  const Numbers numbers = {{"Ri:Format", {40, 30, 1.5f}}, {"Shutter", {0.25f, 0.75f}},
-                           {"Clipping", {2, 900}},        {"CropWindow", {0.1f, 0.9f, 0.2f, 0.8f}},
-                           {"PixelSamples", {3, 5}},      {"Frame", {17}}};
+  scene.options.fStop = 4;
+  scene.options.focalLength = 0.5f;
+  scene.options.focalDistance = 6;
+  const Numbers numbers = {{"Ri:Format", {40, 30, 1.5f}},
+                           {"DeviceResolution", {40, 30, 1.5f}},
+                           {"FrameAspectRatio", {2}},
+                           {"DepthOfField", {4, 0.5f, 6}},
+                           {"Shutter", {0.25f, 0.75f}},
+                           {"Clipping", {2, 900}},
+                           {"CropWindow", {0.1f, 0.9f, 0.2f, 0.8f}},
+                           {"PixelSamples", {3, 5}},
+                           {"Frame", {17}}};
   asked(2, [&](sl::Surface&) { expectNumbers(TM_OF_OPTIONS, numbers); });
 }
 
@@ -260,6 +269,15 @@ TEST_F(BatchServices, PrintingIsForThePointsOfTheMask) {
   asked(4, [](sl::Surface& s) { s.printf("%f at %p in %s", s.u, s.P, "here"); });
   EXPECT_EQ(::testing::internal::GetCapturedStderr(),
             "0.000000 at 0.000000 0.000000 5.000000 in here\n0.250000 at 0.000000 0.000000 5.000000 in here\n");
+}
+
+TEST_F(BatchServices, NothingIsPrintedForASketchNorByASilentFrame) {
+  ::testing::internal::CaptureStderr();
+  const auto print = [](sl::Surface& s) { s.printf("%f\n", s.u); };
+  asked(1, print, {.purpose = Purpose::Sketch});
+  system().silence();
+  asked(1, print);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(BatchServices, ATextThatEndsItsLineIsPrintedWithoutAnEmptyOne) {

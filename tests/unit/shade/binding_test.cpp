@@ -404,6 +404,32 @@ TEST_F(Binding, CountsOfLightsAreLimitedAndItIsSaid) {
   EXPECT_EQ(log.count("light-value"), 2);
 }
 
+TEST(ParameterValues, OfATypeMayBeGivenAsThoseThatNeedNoConversion) {
+  const ValueType all[] = {ValueType::Float,  ValueType::Integer, ValueType::Color,
+                           ValueType::Point,  ValueType::Vector,  ValueType::Normal,
+                           ValueType::HPoint, ValueType::String,  ValueType::Matrix};
+  const std::pair<int32_t, std::vector<ValueType>> rows[] = {
+      {TM_FLOAT, {ValueType::Float, ValueType::Integer}},
+      {TM_COLOR, {ValueType::Color}},
+      {TM_POINT, {ValueType::Point, ValueType::Vector, ValueType::Normal}},
+      {TM_NORMAL, {ValueType::Point, ValueType::Vector, ValueType::Normal}},
+      {TM_STRING, {ValueType::String}},
+      {TM_MATRIX, {ValueType::Matrix}}};
+  for (const auto& [type, taken] : rows)
+    for (const ValueType given : all)
+      EXPECT_EQ(accepts(type, given), std::find(taken.begin(), taken.end(), given) != taken.end())
+          << typeName(type) << " from " << nameOf(given);
+  EXPECT_STREQ(typeName(TM_MATRIX + 1), "unknown type");
+  EXPECT_EQ(valueTypeOf(-1), ValueType::Float);
+  EXPECT_EQ(tmTypeOf(ValueType::Integer), TM_FLOAT);
+}
+
+TEST_F(Binding, ACountOfALightThatIsNoNumberIsItsDefault) {
+  light("indirectlight", {number("samples", std::nanf(""))});
+  EXPECT_EQ(system().group(0).indirectQuery()->samples, IndirectQuery().samples);
+  EXPECT_EQ(log.count("light-value"), 1);
+}
+
 TEST_F(Binding, WhatAnIndirectLightCannotDoIsSaidOnce) {
   light("indirectlight", {text("errorfunction", "guess"), text("radiance", "guess")});
   system();

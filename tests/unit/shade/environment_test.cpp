@@ -111,6 +111,24 @@ TEST_F(Environment, APortalIsTheUnitSquareOfACoordinateSystem) {
   EXPECT_EQ(log.entries().size(), 0u);
 }
 
+TEST_F(Environment, OpeningsOfTheSceneArePortalsOfSkiesThatNameNone) {
+  scene.worldFromNamed["window"] = mat4(1.0f);
+  scene.cameraFromWorld = Motion::still(glm::translate(mat4(1.0f), vec3(0, 0, 7)));
+  scene.worldFromOpenings = {glm::scale(mat4(1.0f), vec3(2))};
+  light("environmentlight");
+  light("environmentlight", {text("portals", "window")});
+  light("distantlight").castsShadows = true;
+  ASSERT_EQ(system().light(0).portals().size(), 1u);
+  EXPECT_EQ(system().light(0).portals()[0].corner, vec3(-1, -1, 7));
+  ASSERT_EQ(system().light(1).portals().size(), 1u);
+  EXPECT_EQ(system().light(1).portals()[0].corner, vec3(-0.5f, -0.5f, 7));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(system().light(k).takesFoundPortals(), k == 0) << k;
+  scene.worldFromOpenings.push_back(mat4(1.0f));
+  system().takeFoundPortals();
+  EXPECT_EQ(system().light(0).portals().size(), 2u);
+  EXPECT_EQ(system().light(1).portals().size(), 1u);
+}
+
 TEST_F(Environment, APortalThatIsNotNamedAnywhereIsTold) {
   surface("matte");
   scene.worldFromNamed["flat"] = glm::scale(mat4(1.0f), vec3(1, 0, 1));

@@ -140,6 +140,12 @@ TEST(LightTree, TheImportanceOfALampIsItsLightAtThePoint) {
               1e-6);
 }
 
+TEST(LightTree, LampsTooDimAndFarToBeToldApartAreDrawnEvenly) {
+  const TreeLight dim{{vec3(0), vec3(0)}, 1e-30f}, dimmer{{vec3(1, 0, 0), vec3(1, 0, 0)}, 1e-31f};
+  EXPECT_EQ(shareOfFirst(dim, dimmer, {{0, 0, 1e12f}, vec3(0)}), 0.5f);
+  EXPECT_NEAR(shareOfFirst(dim, dimmer, {{0, 0, 1e3f}, vec3(0)}), 1 / 1.1, 1e-4);
+}
+
 TEST(LightTree, FewDrawnLampsOverAFloorBringItsLightWithinTwoPercent) {
   std::vector<TreeLight> lamps;
   for (uint32_t i = 0; i < 3000; ++i) {

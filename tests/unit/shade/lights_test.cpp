@@ -180,6 +180,89 @@ TEST_F(Lights, IndirectLightObeysReceiveGainContextAndItsOwnTint) {
   EXPECT_EQ(system().group(0).indirectQuery(), nullptr);
 }
 
+// A point beside a lamp draws little else, and one that is far from all of them draws many.
+TEST_F(Lights, OfWhichAPointDrawsAFewBringTheSameWhateverThePointsBesideIt) {
+  scene.options.user["trace:lightcut"] = number("lightcut", 16);
+  surface("matte", {number("Ka", 0), number("Kd", 1)});
+  for (int k = 0; k < 100; ++k)
+    light("pointlight", {point("from", {static_cast<float>(k % 10), static_cast<float>(k / 10), 2})}).castsShadows =
+        true;
+  const vec3 near(3, 4, 2.001f), far(5, 5, 40);
+  ShadePoints both = points({near, far});
+  const ShadedPoints together = shade(both);
+  for (int i = 0; i < 2; ++i) {
+    ShadePoints alone(0, 0);
+    alone.add(both.name(i));
+    for (int c = 0; c < both.channelCount(); ++c) alone.channel(c)[0] = both.channel(c)[i];
+    EXPECT_EQ(shade(alone).color(0), together.color(i)) << i;
+  }
+  EXPECT_NEAR(together.color(0).x, 1e6f, 2e3f);
+  EXPECT_NEAR(together.color(1).x, 100 / (38.0f * 38), 0.01f);
+}
+
+TEST_F(Lights, OfOneGroupShineAloneButForIndirectLight) {
+  services.E = vec3(8);
+  surface("matte", {number("Ka", 1), number("Kd", 1)});
+  light("ambientlight", {number("intensity", 1), text("__group", "a")});
+  light("distantlight", {number("intensity", 2), text("__group", "a")});
+  light("distantlight", {number("intensity", 4), text("__group", "b")});
+  light("indirectlight");
+  for (const auto& [group, brightness] : {std::pair("a", 3.0f), {"b", 4.0f}, {"", 0.0f}}) {
+    const std::string name = group;
+    ShadeContext context;
+    context.onlyLightGroup = &name;
+    expectColor(shadeOne(context), vec3(8 + brightness));
+  }
+  expectColor(shadeOne(), vec3(8 + 7));
+}
+
+TEST_F(Lights, AreLeftOutWhereTheEyeLooksOrWhereShadowRaysPass) {
+  surface("matte");
+  light("distantlight", {number("intensity", 2)});
+  ShadeContext context;
+  context.direct = false;
+  expectColor(shadeOne(context), vec3(0));
+  for (const RayKind kind : {RayKind::Diffuse, RayKind::Specular, RayKind::Transmission}) {
+    context.kind = kind;
+    expectColor(shadeOne(context), vec3(kind == RayKind::Transmission ? 0 : 2));
+  }
+}
+
+TEST_F(Lights, AreReplacedByLightThatIsStoredOrEvenOrByNone) {
+  services.stored = {3, 4, 5};
+  attributes.color = vec3(0.5f);
+  surface("matte", {number("Ka", 0), number("Kd", 1)});
+  light("distantlight", {number("intensity", 2)});
+  const std::pair<Illumination, vec3> expected[] = {{Illumination::Lights, vec3(2)},
+                                                    {Illumination::Stored, {3, 4, 5}},
+                                                    {Illumination::Unit, vec3(1)},
+                                                    {Illumination::None, vec3(0)},
+                                                    {Illumination::LightsAndStored, {5, 6, 7}}};
+  for (const auto& [illumination, light] : expected) {
+    ShadeContext context;
+    context.illumination = illumination;
+    expectColor(shadeOne(context), 0.5f * light);
+  }
+}
+
+TEST_F(Lights, RaysAreNeededForShadowsLampsWithGeometryIndirectLightAndWhatTracesItself) {
+  const auto needs = [&](const char* ofSurface, const char* lamp, bool area = false, bool shadows = false) {
+    shading.reset();
+    scene.objects.clear();
+    scene.lights.clear();
+    surface(ofSurface);
+    light(lamp, {}, area).castsShadows = shadows;
+    return system().needsRays();
+  };
+  EXPECT_FALSE(needs("matte", "distantlight"));
+  EXPECT_TRUE(needs("matte", "distantlight", false, true));
+  EXPECT_TRUE(needs("matte", "arealight", true));
+  EXPECT_TRUE(needs("matte", "indirectlight"));
+  EXPECT_TRUE(needs("glass", "distantlight"));
+  attributes.volume = true;
+  EXPECT_TRUE(needs("matte", "distantlight"));
+}
+
 // Each point draws some of many lamps; in the mean that is the light of all.
 TEST_F(Lights, FewOfManyLightsBringTheLightOfAllInTheMean) {
   vec3 sums[2];

@@ -101,6 +101,66 @@ TEST_F(Neighbours, GetTheSamplesOfLightOfTheirPoint) {
   });
 }
 
+rsl::FloatOutput height("height", "");
+void writeHeight(const TmGrid* g) {
+  for (int i = 0; i < g->count; ++i) {
+    if (height.wanted(g)) height.set(g, i, g->P.x[i] + 1);
+    rsl::set(g->Ci, i, {g->P.x[i], 2, 3});
+    rsl::set(g->Oi, i, {1, 0.5f, g->P.x[i]});
+  }
+}
+const rsl::Shader writingShader(TM_SURFACE, "writing", "", TM_NEIGHBOURS, writeHeight, {&height});
+
+TEST_F(Neighbours, LeaveColoursAndOutputsToTheirPoint) {
+  static const TmShader* const shaders[] = {writingShader};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  surface("writing");
+  const std::vector<RayOutput> wanted = {{"surface:height", 1}, {"surface:absent", 1}};
+  ShadeContext context;
+  context.outputs = &wanted;
+  std::vector<vec3> places;
+  for (int i = 0; i < 300; ++i) places.push_back({static_cast<float>(i), 0, 5});  // two parts of a batch
+  const ShadedPoints out = shade(withSteps(points(places)), context);
+  for (size_t i = 0; i < 300; ++i) {
+    const auto x = static_cast<float>(i);
+    EXPECT_EQ(out.color(static_cast<int>(i)), vec3(x, 2, 3));
+    EXPECT_EQ(out.opacity(static_cast<int>(i)), vec3(1, 0.5f, x));
+    EXPECT_EQ(out.variables[0][i], x + 1);
+    EXPECT_TRUE(std::isnan(out.variables[1][i]));
+  }
+}
+
+rsl::FloatParam heat("heat", 0, ""), dust("dust", 0, "");
+void differHeat(const TmGrid* g) {
+  rsl::Array along(g), across(g);
+  g->call->derivative(g->host, g, 0, g->params[1].c[0], along.data());
+  g->call->derivative(g->host, g, 1, g->params[1].c[0], across.data());
+  for (int i = 0; i < g->count; ++i) rsl::set(g->Ci, i, {along[i], across[i], 0});
+}
+const rsl::Shader differingHeat(TM_SURFACE, "differing heat", "", TM_DERIVATIVES, differHeat, {&heat, &dust});
+
+TEST_F(Neighbours, AreNotNeededToKnowHowAVariableOfTheGeometryChanges) {
+  static const TmShader* const shaders[] = {differingHeat};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  surface("differing heat");
+  primvar("heat", ValueType::Float);
+  primvar("dust", ValueType::Float);
+  ShadePoints p = withSteps(points({vec3(0, 0, 5), vec3(1, 0, 5)}));
+  for (int i = 0; i < 2; ++i) {
+    p.primvar(0)[i] = 7;
+    p.primvar(1)[i] = 10 + static_cast<float>(i);
+    p.channel(kDu)[i] = 0.5f;
+    p.channel(kDv)[i] = 0.25f;
+    p.step(kStepPrimvars + 1, false)[i] = 2;
+    p.step(kStepPrimvars + 1, true)[i] = 3 + static_cast<float>(i);
+  }
+  const ShadedPoints out = shade(p);
+  expectColor(out.color(0), {4, 12, 0});
+  expectColor(out.color(1), {4, 16, 0});
+}
+
 TEST_F(Neighbours, GetWhatTheRaysOfTheirPointMeet) {
   shadeWide([](const TmGrid* g) {
     const TmConstVec3 P = rsl::view(g->P), N = rsl::view(g->N);

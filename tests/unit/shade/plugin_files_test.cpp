@@ -57,6 +57,9 @@ TEST_F(PluginFolders, MayHoldFilesThatAreNoPlugins) {
   ShaderRegistry registry(log, {.folders = folder});
   EXPECT_FALSE(registry.find("text", TM_SURFACE, ""));
   EXPECT_NE(said().find("cannot be loaded"), std::string::npos) << said();
+  const int before = log.count("shader-plugin");
+  EXPECT_TRUE(registry.functions("")->named("any").empty());
+  EXPECT_GT(log.count("shader-plugin"), before) << "a folder has no functions";
   EXPECT_FALSE(registry.loadPlugin(folder + "/absent.so"));
   EXPECT_FALSE(registry.loadPlugin(TOMALES_BUILD_DIR "/libtomales_zip.so"));
   EXPECT_NE(said().find("is not a shader plugin: it does not export tomales_shaders"), std::string::npos) << said();

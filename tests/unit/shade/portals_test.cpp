@@ -139,6 +139,13 @@ TEST(SkyPortals, AtAWindowHalfOfAllDirectionsAreItsOwn) {
   EXPECT_NEAR(right / 4096.0, 2 * kPi / (2 * kPi + other), 0.001);
 }
 
+TEST(SkyPortals, BehindTheHorizonGetNoSampleWhicheverOfThemComesLast) {
+  Portals portals;
+  EXPECT_TRUE(portals.add(window(1, 1, -2)) && portals.add(window(1, 1, 2)) && portals.add(window(1, 2, -3)));
+  for (const float xi : {0.0f, 0.3f, 1.0f})  // 1 is what rounding makes of the numbers below it
+    EXPECT_GT(portals.sample(vec3(0), {1, 0, 0}, {xi, 0.5f}).x, 0) << xi;
+}
+
 TEST(SkyPortals, SquaresWithoutAreaAreRefused) {
   Portals portals;
   EXPECT_FALSE(portals.add(window(0, 1, 2)));

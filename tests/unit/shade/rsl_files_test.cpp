@@ -121,6 +121,12 @@ TEST_F(RslFiles, ThatHaveTheShadersNameAndHoldItComeBeforeOthersThatHoldIt) {
   EXPECT_STREQ(find("paint")->params[0].name, "a");
 }
 
+TEST_F(RslFiles, WhoseShaderIsNamedByAMacroAreTakenAtTheirOwnName) {
+  write("another.sl", "surface paint(float b = 1;) {}");
+  write("paint.sl", "#define skin  paint\nsurface skin(float a = 1;) {}");
+  EXPECT_STREQ(find("paint")->params[0].name, "a");
+}
+
 TEST_F(RslFiles, AreCompiledAgainWhenTheyOrWhatTheyIncludeChanges) {
   write("part.h", "#define VALUE 1\n");
   const std::string path = write("paint.sl", "#include \"part.h\"\nsurface paint(float a = VALUE;) { Ci = a; }");

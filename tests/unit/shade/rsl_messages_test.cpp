@@ -99,6 +99,47 @@ TEST_F(RslMessages, ARayGetsTheOutputsOfTheSurfaceThatItAsksForInTheirSize) {
   EXPECT_EQ(vec3(at(9), at(10), at(11)), vec3(0.5f, 5, 6));
 }
 
+class RslVolumes : public RslMessages {
+ protected:
+  static std::shared_ptr<const ShaderCall> fog(float distance, const vec3& background) {
+    return std::make_shared<const ShaderCall>(
+        call("fog", {number("distance", distance), color("background", background)}));
+  }
+  /// Two points at u = 0 and u = 1/2, of which the eye sees the first from outside and the second from inside.
+  std::vector<vec3> bothSides() {
+    shading.reset();
+    scene.objects.clear();
+    ShadePoints p = points({vec3(0, 0, 5), vec3(0, 0, 5)});
+    p.set3(kNgx, 1, {0, 0, 1});
+    const ShadedPoints out = shade(p);
+    return {out.color(0), out.color(1)};
+  }
+};
+
+TEST_F(RslVolumes, OnTheSideOfEachPointAnswer) {
+  write("asker",
+        "surface asker() { float near = -1, far = -1; color c = -1; incident(\"distance\", near);\n"
+        "  opposite(\"distance\", far); incident(\"background\", c); Oi = 1; Ci = color (near, far, comp(c, 1)); }");
+  surface("asker");
+  attributes.exterior = fog(11, {1, 2, 3});
+  attributes.interior = fog(13, {4, 5, 6});
+  const std::vector<vec3> told = bothSides();
+  expectColor(told[0], {11, 13, 2});
+  expectColor(told[1], {13, 11, 5});
+}
+
+TEST_F(RslVolumes, OnTheSideOfTheFirstPointThatAsksAnswerIfTheOtherSideHasNone) {
+  write("asker",
+        "surface asker() { float near = -1, found = -1; if (u > 0.3) found = incident(\"distance\", near);\n"
+        "  Oi = 1; Ci = color (near, found, 0); }");
+  surface("asker");
+  attributes.interior = fog(13, vec3(0));
+  expectColor(bothSides()[1], {13, 1, 0});
+  attributes.interior = nullptr;
+  attributes.exterior = fog(11, vec3(0));
+  expectColor(bothSides()[1], {-1, 0, 0});
+}
+
 TEST_F(RslMessages, TheSurfaceLearnsWhatTheDisplacementLeftInTheGeometry) {
   write("bump", "displacement bump(output varying color stain = 0;) { stain = 1; }");
   write("stained", "surface stained() { color c = -1; displacement(\"stain\", c); Oi = 1; Ci = c; }");
@@ -157,6 +198,69 @@ TEST_F(RslMessages, TheRendererTellsItsVersionInNumbersAndAsText) {
       "  Ci = color (text == format(\"%d.%d.%d\", v[0], v[1], v[2]) ? 1 : 0, v[3], name == \"Tomales\" ? 1 : 0); }");
   surface("versions");
   expectColor(colors()[0], {1, 0, 1});
+}
+
+/// A plane of four vertices at z = 5 that faces the eye.
+Grid square(int primvarFloats = 0) {
+  Grid g;
+  g.object = 0;
+  g.allocate(1, 1, 1, primvarFloats);
+  for (int k = 0; k < 4; ++k) {
+    g.u()[k] = g.P(0, 0)[k] = static_cast<float>(k % 2);
+    g.v()[k] = g.P(0, 1)[k] = static_cast<float>(k / 2);
+    g.P(0, 2)[k] = 5;
+    g.N(2)[k] = -1;
+  }
+  return g;
+}
+
+TEST_F(RslMessages, ADisplacementLearnsItsOwnParameters) {
+  write("push",
+        "displacement push(float far = 0.5;) { float x = 0; displacement(\"far\", x); P += x * normalize(N); }");
+  displacement("push", {number("far", 0.25f)});
+  attributes.displacementBound = 10;
+  Grid g = square();
+  system().displace(g);
+  for (int k = 0; k < 4; ++k) EXPECT_FLOAT_EQ(g.P(0, 2)[k], 4.75f);
+}
+
+TEST_F(RslMessages, TheGeometryKeepsWhatADisplacementTellsTheSurface) {
+  write("bump",
+        "displacement bump(output varying float height = 0; output varying color stain = 0;)\n"
+        "{ height = 2 * u; stain = color (1, v, 3); }");
+  displacement("bump");
+  primvar("other", ValueType::Float);
+  primvar("displacement:height", ValueType::Float);
+  primvar("displacement:stain", ValueType::Color);
+  Grid g = square(5);
+  std::fill_n(g.primvar(0), 4, 9.0f);
+  system().displace(g);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(g.primvar(0)[k], 9);
+    EXPECT_EQ(g.primvar(1)[k], 2 * g.u()[k]);
+    EXPECT_EQ(vec3(g.primvar(2)[k], g.primvar(3)[k], g.primvar(4)[k]), vec3(1, g.v()[k], 3));
+  }
+}
+
+TEST_F(RslMessages, DisplacementsKnowTheDirectionOfTheEyeAndTheirTextureCoordinates) {
+  write("along", "displacement along() { P = P + I; N = normal \"current\" (s, t, -1); }");
+  displacement("along");
+  attributes.displacementBound = 100;
+  attributes.textureCoordinates = {vec2{0.1f, 0.2f}, {0.3f, 0.5f}, {0.7f, 0.1f}, {0.9f, 0.8f}};
+  for (const bool perspective : {false, true}) {
+    scene.options.projection = perspective ? ProjectionKind::Perspective : ProjectionKind::Orthographic;
+    shading.reset();
+    scene.objects.clear();
+    Grid g = square();
+    const Grid before = square();
+    system().displace(g);
+    for (int k = 0; k < 4; ++k) {
+      const vec3 P = before.position(0, k);
+      EXPECT_EQ(g.position(0, k), P + (perspective ? P : vec3(0, 0, 1)));
+      const vec2 st = attributes.textureCoordinates[static_cast<size_t>(k)];
+      EXPECT_EQ(g.normal(k), vec3(st, -1));
+    }
+  }
 }
 
 // --- Displacements that are not finite

@@ -58,6 +58,45 @@ TEST_F(Traits, OfSurfacesAreWhatTheirShadersDeclare) {
   EXPECT_FALSE(of("shared").asksHemispheres());
 }
 
+rsl::FloatParam most("most", 0.1f, "", TM_ROLE_MAX_VARIATION);
+const rsl::Shader occludedLight(TM_LIGHT, "occluded", "", TM_LIGHT_SOLAR | TM_OCCLUDED, nothing, {&most});
+const rsl::Shader sharedLight(TM_LIGHT, "sharedlight", "", TM_LIGHT_SOLAR | TM_INTERPOLATED, nothing, {});
+const rsl::Shader unaskedLight(TM_LIGHT, "unaskedlight", "", TM_LIGHT_SOLAR | TM_INTERPOLATED | TM_INTERPOLATED_UNASKED,
+                               nothing, {});
+
+TEST_F(Traits, OfLightsThatAskForHemispheresAreThoseOfTheObjectsThatTheyLight) {
+  static const TmShader* const shaders[] = {occludedLight, sharedLight, unaskedLight};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  const auto asks = [&](const char* lamp, ParamList params = {}) {
+    scene.lights.clear();
+    attributes.lights.clear();
+    light("distantlight");
+    light(lamp, std::move(params));
+    const bool lit = of("plain").asksHemispheres();
+    attributes.lights.switchOff(1);
+    EXPECT_FALSE(of("plain").asksHemispheres()) << "it is off";
+    return lit;
+  };
+  EXPECT_FALSE(asks("distantlight"));
+  EXPECT_TRUE(asks("occluded"));
+  EXPECT_FALSE(asks("occluded", {number("most", 0)}));
+  EXPECT_FALSE(asks("sharedlight"));
+  EXPECT_TRUE(asks("unaskedlight"));
+  attributes.irradianceMaxError = 0.5f;
+  EXPECT_TRUE(asks("sharedlight"));
+  EXPECT_TRUE(asks("occluded", {number("most", -1)}));
+}
+
+TEST_F(Traits, TheGroupOfALightIsTheOneItNamesOrItsHandleAndIndirectLightHasNone) {
+  light("pointlight", {text("__group", "key")});
+  light("distantlight");
+  light("indirectlight");
+  EXPECT_EQ(system().light(0).group(), "key");
+  EXPECT_EQ(system().light(1).group(), "distantlight");
+  EXPECT_EQ(system().light(2).group(), "");
+}
+
 TEST_F(Traits, AnEvenShaderReflectsEvenlyUnlessAVariableOfTheGeometryChangesIt) {
   EXPECT_TRUE(of("even").reflectsEvenly());
   EXPECT_FALSE(of("plain").reflectsEvenly());

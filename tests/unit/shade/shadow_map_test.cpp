@@ -224,6 +224,18 @@ TEST(ShadowMap, APictureWithoutDepthOrItsCameraIsNone) {
   EXPECT_TRUE(refused("Y", {{"worldToCamera", mat4(1)}, {"worldToScreen", mat4(1)}}));
 }
 
+TEST(ShadowMap, AFileThatEndsEarlyIsNoneAndSaysWhy) {
+  const std::string path =
+      writePicture(test::temporary("tomales_short_map.exr"), 64, 64, "Z",
+                   [](int x, int y) { return std::array{static_cast<float>((x * 31 + y * 17) % 101)}; },
+                   {{"worldToCamera", mat4(1)}, {"worldToScreen", mat4(1)}});
+  std::string error;
+  EXPECT_NE(ShadowMap::read(path, error), nullptr);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_EQ(ShadowMap::read(path, error), nullptr);
+  EXPECT_NE(error, "");
+}
+
 TEST(ShadowMaps, AreReadOnceAndOneOfItsNameElsewhereIsTakenAndTold) {
   flatMap(kParallel, [](int, int) { return 1.0f; });
   Log log(Log::Verbosity::Quiet);

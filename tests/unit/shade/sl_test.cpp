@@ -305,6 +305,44 @@ TEST_F(Sl, WhatRaysBringCrossesTheVolumeOfItsSide) {
   expectColor(shadeOne(), {0, 1 - std::exp(-1.5f), 0}, 1e-5f);
 }
 
+// What is met at a distance of 3 is seen through fog; what is behind everything is not told.
+void gathering(const TmGrid* g) {
+  rsl::Vec3Array through(g), opacity(g), bare(g);
+  rsl::Array worn(g), effective(g);
+  std::vector<uint8_t> hit(static_cast<size_t>(g->padded), uint8_t{7});
+  const TmChannel outputs[] = {{"volume:Ci", through},
+                               {"volume:Oi", opacity},
+                               {"surface:Ci", bare},
+                               {"surface:worn", {worn.data(), nullptr, nullptr}},
+                               {"effectivedistance", {effective.data(), nullptr, nullptr}}};
+  for (const int i : {0, 1}) through.set(i, {9, 9, 9});
+  EXPECT_TRUE(g->call->gather(g->host, g, nullptr, rsl::view(g->P), rsl::view(g->N), 0, hit.data(), outputs, 5));
+  EXPECT_EQ(hit[0], 1);
+  EXPECT_EQ(hit[1], 0);
+  EXPECT_EQ(through[1].x, 9);
+  EXPECT_EQ(opacity[0].x, 1);
+  EXPECT_EQ(bare[0].x, 0.5f);
+  EXPECT_EQ(worn[0], 1);
+  EXPECT_EQ(effective[0], 6);
+  EXPECT_GE(effective[1], 1e30f);
+  rsl::set(g->Ci, 0, through[0]);
+}
+const rsl::Shader gatheringShader(TM_SURFACE, "gathering", "", TM_TRACES, gathering, {});
+
+TEST_F(Sl, GatherTellsWhatIsMetBeforeAndBehindTheVolumeOfItsSide) {
+  static const TmShader* const shaders[] = {gatheringShader};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  surface("gathering");
+  attributes.exterior =
+      std::make_shared<const ShaderCall>(call("fog", {number("distance", 2), color("background", {0, 1, 0})}));
+  services.met = [](const vec3& P, const vec3&) { return P.x > 0 ? kInfinity : 3.0f; };
+  services.seen = [](const vec3&) { return vec3(0.5f); };
+  const float passes = std::exp(-1.5f);
+  expectColor(shade(points({vec3(0, 0, 5), vec3(1, 0, 5)})).color(0),
+              passes * vec3(0.5f) + (1 - passes) * vec3(0, 1, 0));
+}
+
 // Every example of the documentation, compiled as a user would: against the installed headers and nothing else.
 TEST_F(Sl, TheExamplesCompileOutOfTree) {
   const fs::path folder = test::temporary("tomales_examples"), source = TOMALES_SOURCE_DIR;

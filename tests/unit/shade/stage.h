@@ -84,6 +84,8 @@ class FakeServices final : public ShadeServices {
       if (result.distance) result.distance[i] = distance;
       if (result.leaves) result.leaves[i] = met && distance == kInfinity;
       const vec3 color = seen && toward != vec3(0) ? seen(toward) : vec3(0);
+      for (const RayOutput& o : result.outputs)
+        for (int k = 0; k < o.floats && distance < kInfinity; ++k) o.c[k][i] = o.name == "surface:Ci" ? color[k] : 1.0f;
       if (result.color.x) {
         set(result.color, i, color);
       }
