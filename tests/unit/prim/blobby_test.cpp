@@ -115,6 +115,16 @@ TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
     EXPECT_LT(glm::length(sampleAt(*there, patch, 0.3f, 0.6f).p - sampleAt(*here, patch, 0.3f, 0.6f).p - by), 1e-5f);
 }
 
+TEST(Blobby, AKeyOfOtherLeavesHasAMeshOfItsOwn) {
+  const PrimPtr first = blobby(1, {kEllipsoid, 0}, ball(vec3(0)));
+  const std::vector<int> code = {kEllipsoid, 0, kEllipsoid, 16, kAdd, 2, 0, 1};
+  const std::vector<float> numbers = joined({ball(vec3(0)), ball(vec3(3, 0, 0))});
+  Problems problems;
+  const PrimPtr key = makeBlobbyKey(*first, 2, code, numbers, {}, {}, problems);
+  EXPECT_EQ(key->patchCount(), blobby(2, code, numbers)->patchCount());
+  for (uint32_t patch = 0; patch < key->patchCount(); ++patch) EXPECT_EQ(key->info(patch).openEdges, 0) << "closed";
+}
+
 TEST(Blobby, ALoneEllipsoidIsAnEllipsoidOfHalfItsSize) {
   const vec3 center(3, -1, 2), scale(2, 1, 0.5f);
   const PrimPtr prim = blobby(1, {kEllipsoid, 0}, ball(center, scale));

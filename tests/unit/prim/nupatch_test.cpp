@@ -235,6 +235,25 @@ TEST(NastyNuPatch, WrongInputThrowsASentence) {
   EXPECT_NE(errorWith(good, rationalControls({0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 1, -1, -1, 0, 0})), "");
 }
 
+TEST(NastyNuPatch, OrdersUpTo32AreDrawn) {
+  const NurbsDirection v{2, 2, {0, 0, 1, 1}, 0, 1};
+  Problems problems;
+  const auto error = [&](int order) {
+    NurbsDirection u{order, order, std::vector<float>(static_cast<size_t>(order), 0.0f), 0, 1};
+    u.knots.resize(static_cast<size_t>(2 * order), 1.0f);
+    std::vector<float> p;  // even controls on a line give an even line, whatever the order
+    for (const float y : {0.0f, 1.0f})
+      for (int i = 0; i < order; ++i) p.insert(p.end(), {static_cast<float>(i) / static_cast<float>(order - 1), y, 0});
+    return errorOf([&] {
+      const PrimPtr prim = makeNuPatch(u, v, {}, {positions(p)}, problems);
+      EXPECT_LT(glm::length(sampleAt(*prim, 0, 0.3f, 0.6f).p - vec3(0.3f, 0.6f, 0)), 1e-6f) << order;
+    });
+  };
+  EXPECT_EQ(error(2), "");
+  EXPECT_EQ(error(32), "");
+  EXPECT_EQ(error(33), "along u, the order is 33; it can be 2 to 32");
+}
+
 TEST(NastyNuPatch, AJumpAtAFullKnotIsOpenAndARangeTooLongIsCut) {
   const NurbsDirection jump{4, 2, {0, 0, 1, 1, 2, 2}, 0, 9}, v{2, 2, {0, 0, 1, 1}, 0, 1};
   Problems problems;

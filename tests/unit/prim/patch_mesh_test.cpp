@@ -198,6 +198,25 @@ TEST(PatchMesh, HeightsAndHomogeneousPointsMustBeFiniteAndOneForEachVertex) {
   EXPECT_EQ(error("Pz", ValueType::Float, {1, 2, 3, 4}), "");
 }
 
+TEST(PatchMesh, HomogeneousPointsMustBeFiniteAndOneForEachVertex) {
+  Problems problems;
+  const auto error = [&](std::vector<float> pw) {
+    return errorOf([&] {
+      makeBilinearPatchMesh(2, false, 2, false, {floats("Pw", Storage::Vertex, ValueType::HPoint, std::move(pw))},
+                            problems);
+    });
+  };
+  std::vector<float> pw = {0, 0, 0, 1, 2, 0, 0, 2, 0, 1, 0, 1, 1, 1, 0, 1};  // of two weights
+  EXPECT_EQ(error(pw), "");
+  for (const size_t k : {4u, 6u, 7u}) {
+    std::vector<float> bad = pw;
+    bad[k] = NAN;
+    EXPECT_EQ(error(bad), "Pw of vertex 1 is not a finite number") << k;
+  }
+  pw.pop_back();
+  EXPECT_EQ(error(pw), "Pw has 15 values where 4 vertices need 16 floats");
+}
+
 TEST(PatchMesh, HasAtMostAMillionControlPointsAlongADirection) {
   Problems problems;
   constexpr int kMost = 1 << 20;
@@ -317,6 +336,25 @@ TEST(NastyPatch, CollapsedEdgesCornersAndPointsAreSound) {
   expectSoundEverywhere(
       *makeBilinearPatchMesh(2, false, 2, false, {positions({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0})}, problems));
   expectSoundEverywhere(*makeBilinearPatchMesh(2, false, 2, false, {positions(std::vector<float>(12, 1))}, problems));
+}
+
+TEST(NastyPatch, OneControlPointBesideALineDecidesWhereTheNormalPoints) {
+  const auto normal = [](size_t control, float height) {
+    std::vector<float> p;
+    for (int k = 0; k < 16; ++k) p.insert(p.end(), {static_cast<float>(k % 4 + 2 * (k / 4)), 0, 0});
+    p[3 * control + 1] = height;
+    Problems problems;
+    return sampleAt(*makeBicubicPatchMesh(4, false, bezierBasis(), 4, false, bezierBasis(), {positions(p)}, problems),
+                    0, 1, 0)
+        .n;
+  };
+  for (size_t control = 0; control < 16; ++control) {
+    EXPECT_EQ(normal(control, 0), vec3(0, 0, 1));
+    if (control == 12) continue;  // that of the opposite corner is not felt here
+    const float above = glm::normalize(normal(control, 1)).z, below = glm::normalize(normal(control, -1)).z;
+    EXPECT_NEAR(std::abs(above), 1, 1e-4f) << control;
+    EXPECT_NEAR(above + below, 0, 1e-4f) << control;
+  }
 }
 
 TEST(PatchMesh, AnHpointThatIsNoPositionIsDividedToo) {

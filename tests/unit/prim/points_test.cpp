@@ -58,6 +58,7 @@ TEST(Points, FewPolygonsHaveTheAreaOfTheDiskTheyStandFor) {
   const PrimPtr prim = seen(points({positions({1, 2, 3}), width(Storage::Constant, {0.5f})}));
   for (int nu = 1; nu < 6; ++nu)
     for (int nv = 1; nv < 6; ++nv) EXPECT_NEAR(latticeArea(*prim, 0, nu, nv), M_PI / 16, 1e-6) << nu << ' ' << nv;
+  for (const int n : {31, 32, 33}) EXPECT_NEAR(latticeArea(*prim, 0, n, 1), M_PI / 16, 1e-6) << n;
 }
 
 Param typed(const char* name) {
@@ -122,6 +123,24 @@ TEST(Points, OfTypePatchAreCardsThatStandUprightUntilTheirAngleTurnsThem) {
                            floats("patchaspectratio", Storage::Varying, ValueType::Float, {0})},
                           problems),
                PrimError);
+}
+
+TEST(Points, TellWhetherTheyAreFlatOpenDisksAndLone) {
+  const auto shape = [](const char* type) { return points({positions({0, 0, 0}), typed(type)}); };
+  const PrimPtr disk = shape("particle"), card = shape("patch"), ball = shape("sphere");
+  EXPECT_TRUE(disk->info(0).disk && !disk->info(0).planar) << "its outline is round";
+  EXPECT_TRUE(card->info(0).planar && !card->info(0).disk);
+  EXPECT_FALSE(ball->info(0).planar || ball->info(0).disk);
+  EXPECT_EQ(disk->info(0).openEdges, kAllEdges);
+  EXPECT_EQ(card->info(0).openEdges, kAllEdges);
+  EXPECT_EQ(ball->info(0).openEdges, 0);
+  EXPECT_TRUE(disk->isLone() && card->isLone());
+  EXPECT_FALSE(ball->isLone());
+}
+
+TEST(Points, OfTypePatchAreAsLargeHoweverFewPolygonsTheyHave) {
+  const PrimPtr card = points({positions({1, 2, 3}), width(Storage::Constant, {2}), typed("patch")});
+  for (const int n : {1, 2, 5}) EXPECT_NEAR(latticeArea(*card, 0, n, n), 4, 1e-5) << n;
 }
 
 TEST(Points, OfTypesNobodyKnowsAreDisksAndSaySo) {

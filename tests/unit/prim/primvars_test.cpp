@@ -1,4 +1,5 @@
 #include "reyes/prim/primvars.h"
+
 #include "tests/unit/prim/support.h"
 
 namespace tomales {
@@ -61,6 +62,71 @@ TEST(Primvars, AStringOfTheWholePrimitiveIsLeftToItsShaders) {
     EXPECT_TRUE(takePrimvars({text}, {}, problems).empty());
   }
   EXPECT_TRUE(problems.empty());
+}
+
+TEST(Primvars, AHomogeneousPointOfWeightZeroIsDroppedWithASentence) {
+  for (const size_t zero : {3u, 7u, 11u}) {
+    std::vector<float> values = {2, 4, 6, 2, 3, 6, 9, 3, 1, 2, 3, 1};
+    Problems problems;
+    const PrimvarCounts three{1, 1, 3, 1};
+    const auto taken = [&] {
+      return takePrimvars({floats("rest", Storage::Vertex, ValueType::HPoint, values)}, three, problems);
+    };
+    EXPECT_EQ(taken().at(0).values, (std::vector<float>{1, 2, 3, 1, 2, 3, 1, 2, 3}));
+    EXPECT_TRUE(problems.empty());
+    values[zero] = 0;
+    EXPECT_TRUE(taken().empty()) << zero;
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0], "rest has a point of weight 0; it was dropped");
+  }
+}
+
+Param weighted(std::vector<float> values) {
+  return floats("Pw", Storage::Vertex, ValueType::HPoint, std::move(values));
+}
+
+TEST(Positions, OfUnequalWeightsAreDividedWithASentence) {
+  Problems problems;
+  const std::vector<vec3> points = {{1, 2, 3}, {4, 5, 6}};
+  EXPECT_EQ(takePositions({weighted({2, 4, 6, 2, 8, 10, 12, 2})}, Count::Exactly, 2, problems), points);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(takePositions({weighted({2, 4, 6, 2, 4, 5, 6, 1})}, Count::Exactly, 2, problems), points);
+  EXPECT_EQ(problems.size(), 1u);
+  EXPECT_EQ(errorOf([&] {
+              takePositions({weighted({2, 4, 6, 2, 4, 5, 6, 0})}, Count::Exactly, 2, problems);
+            }),
+            "Pw of vertex 1 has weight 0");
+}
+
+TEST(Positions, MayBeMoreThanAreNeededWhereThatIsAllowed) {
+  Problems problems;
+  const auto error = [&](size_t floatCount, Count count, size_t needed) {
+    return errorOf([&] { takePositions({positions(std::vector<float>(floatCount, 1))}, count, needed, problems); });
+  };
+  EXPECT_EQ(error(9, Count::AtLeast, 3), "");
+  EXPECT_EQ(error(9, Count::AtLeast, 2), "");
+  EXPECT_EQ(error(9, Count::AtLeast, 4), "P has 9 values where 4 vertices need 12 floats");
+  EXPECT_EQ(error(9, Count::Exactly, 3), "");
+  EXPECT_EQ(error(9, Count::Exactly, 2), "P has 9 values where 2 vertices need 6 floats");
+  EXPECT_EQ(error(8, Count::AtLeast, 2), "P has 8 values where 2 vertices need 6 floats");
+}
+
+TEST(Positions, KeepTheirWeightsWherePatchesAreRational) {
+  const std::vector<vec4> kept = {{2, 4, 6, 2}, {4, 5, 6, 1}}, whole = {{1, 2, 3, 1}, {4, 5, 6, 1}};
+  EXPECT_EQ(takeHomogeneous({weighted({2, 4, 6, 2, 4, 5, 6, 1})}, 2), kept);
+  EXPECT_EQ(takeHomogeneous({positions({1, 2, 3, 4, 5, 6})}, 2), whole);
+}
+
+TEST(Faces, NeedAsManyVerticesAsTheyNameAndNoNegativeOnes) {
+  const auto error = [](const std::vector<int>& counts, const std::vector<int>& vertices) {
+    return errorOf([&] { requireFaces(counts, vertices); });
+  };
+  EXPECT_EQ(requireFaces({3, 3}, {0, 1, 2, 5, 4, 3}), 6u);
+  EXPECT_EQ(requireFaces({1}, {0}), 1u);
+  EXPECT_EQ(error({}, {}), "the mesh has no faces");
+  EXPECT_EQ(error({3, -2}, {0}), "face 1 has -2 vertices");
+  EXPECT_EQ(error({3, 4}, {0, 1, 2, 3, 4, 5}), "the faces need 7 vertex indices and 6 are given");
+  EXPECT_EQ(error({3}, {0, -3, 1}), "vertex index -3 is negative");
 }
 
 TEST(Primvars, MatricesAndArraysKeepTheirWidth) {

@@ -1,4 +1,5 @@
 #include "reyes/base/parallel.h"
+#include "reyes/prim/subdivision_input.h"
 #include "tests/unit/prim/subdivision.h"
 
 namespace tomales {
@@ -245,6 +246,20 @@ TEST(SubdivisionMesh, PrimvarsOfFacesInACrowdFollowTheSurface) {
       }
 }
 
+TEST(SubdivisionMesh, LinearFaceVaryingValuesInACrowdAreBlendedBetweenTheCornersOfEachFace) {
+  Mesh mesh = fan(80).tag("facevaryinginterpolateboundary", {0});
+  std::vector<float> colors;
+  for (size_t k = 0; k < 3 * mesh.vertices.size(); ++k) colors.push_back(static_cast<float>(k * k % 17));
+  mesh.params.push_back(floats("tint", Storage::FaceVarying, ValueType::Color, colors));
+  const PrimPtr prim = mesh.make();
+  for (uint32_t patch = 0; patch < prim->patchCount(); patch += 7)
+    for (int c = 0; c < 3; ++c) {
+      const auto at = [&](int corner) { return colors[12 * patch + static_cast<size_t>(3 * corner + c)]; };
+      EXPECT_NEAR(primvarAt(*prim, patch, 0, 0.25f, 0.5f)[static_cast<size_t>(c)],
+                  lerp(lerp(at(0), at(1), 0.25f), lerp(at(3), at(2), 0.25f), 0.5f), 1e-4f);
+    }
+}
+
 TEST(SubdivisionMesh, BoundsOfFacesInACrowdContainTheSurface) { expectBoundsContainTheSurface(*fan(80).make()); }
 
 TEST(SubdivisionMesh, CrowdsBeyondMeasureAreDrawnAsTheCage) {
@@ -253,6 +268,23 @@ TEST(SubdivisionMesh, CrowdsBeyondMeasureAreDrawnAsTheCage) {
   ASSERT_EQ(mesh.problems.size(), 1u);
   EXPECT_NE(mesh.problems[0].find("vertex 0"), std::string::npos) << mesh.problems[0];
   EXPECT_EQ(sampleAt(*prim, 0, 1, 1).p.z, 1);
+}
+
+TEST(SubdivisionMesh, ACrowdOfMoreThan8192CornersIsBeyondMeasure) {
+  const auto crowd = [](int triangles, int quadrilaterals) {
+    std::vector<int> counts, vertices;
+    for (int k = 0; k < triangles + quadrilaterals; ++k) {  // all around vertex 7
+      counts.push_back(k < triangles ? 3 : 4);
+      vertices.insert(vertices.end(), {7, 8 + k, 9 + k});
+      if (k >= triangles) vertices.push_back(0);
+    }
+    return crowdBeyondMeasure(counts, vertices, static_cast<size_t>(triangles + quadrilaterals + 9));
+  };
+  EXPECT_FALSE(crowd(8192, 0));
+  EXPECT_FALSE(crowd(0, 4096));
+  ASSERT_TRUE(crowd(1, 4096));
+  EXPECT_EQ(crowd(1, 4096)->vertex, 7);
+  EXPECT_EQ(crowd(1, 4096)->corners, 8193u);
 }
 
 TEST(SubdivisionMesh, EveryHierarchicalEditIsNamed) {

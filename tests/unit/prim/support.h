@@ -82,11 +82,15 @@ inline void expectDerivativesOfPositions(const Prim& prim, float tolerance) {
       }
 }
 
-/// bound() of random rectangles contains random points of them: `total` points in all.
-inline void expectBoundsContainTheSurface(const Prim& prim, int total = 10000) {
+/// bound() of random rectangles contains random points of them: `total` points in all. On average it is larger than the
+/// box around these by less than `slack` of its size.
+inline void expectBoundsContainTheSurface(const Prim& prim, int total = 10000, float slack = 0.5f) {
   constexpr int kPoints = 50;
   ASSERT_GT(prim.patchCount(), 0u);
+  Bound3 whole;
+  for (uint32_t patch = 0; patch < prim.patchCount(); ++patch) whole.extend(prim.bound(patch, {}));
   int outside = 0;
+  float larger = 0;
   for (int k = 0; k < total / kPoints; ++k) {
     const auto random = [&](uint32_t what, uint32_t i) {
       return unitFloat(hashCombine(static_cast<uint32_t>(k), what, i));
@@ -105,10 +109,16 @@ inline void expectBoundsContainTheSurface(const Prim& prim, int total = 10000) {
       v.push_back(lerp(r.v0, r.v1, random(5, i)));
     }
     const Bound3 b = prim.bound(patch, r);
-    for (const Sample& s : samplesAt(prim, patch, u, v))
+    Bound3 box;
+    for (const Sample& s : samplesAt(prim, patch, u, v)) {
+      box.extend(s.p);
       for (int axis = 0; axis < 3; ++axis) outside += !(s.p[axis] >= b.lo[axis] && s.p[axis] <= b.hi[axis]);
+    }
+    larger += maxComponent(b.size() - box.size()) / (maxComponent(box.size()) + 1e-3f * maxComponent(whole.size())) *
+              kPoints / static_cast<float>(total);
   }
   EXPECT_EQ(outside, 0);
+  EXPECT_LT(larger, slack);
 }
 
 /// A lattice with both ends: everything is finite, and no normal is zero.

@@ -113,6 +113,14 @@ TEST(Teapot, EachOfItsPartsHasTheAreaAndTheMomentsOfNewellsData) {
   }
 }
 
+TEST(Teapot, BlendsVaryingValuesOverEachPatch) {
+  Problems problems;
+  const PrimPtr prim = makeTeapot({floats("heat", Storage::Varying, ValueType::Float, {0, 1, 2, 4})}, problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 17, 0, 0.5f, 0.5f)[0], 1.75f);
+  EXPECT_FLOAT_EQ(primvarAt(*prim, 17, 0, 1, 0)[0], 1);
+}
+
 TEST(Teapot, IsOpenOnlyWhereItsPartsEnd) {
   Problems problems;
   const PrimPtr prim = makeTeapot({}, problems);
