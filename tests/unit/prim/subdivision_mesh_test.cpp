@@ -260,6 +260,13 @@ TEST(SubdivisionMesh, LinearFaceVaryingValuesInACrowdAreBlendedBetweenTheCorners
     }
 }
 
+// A face of this fan meets 2n + 10 corners of faces. Above 96 it has a table of its own, which takes much memory.
+TEST(SubdivisionMesh, FacesAmongMoreThan96CornersAreACrowd) {
+  const auto bytesOfFace = [](int n) { return fan(n).make()->bytes() / static_cast<size_t>(n); };
+  EXPECT_LT(bytesOfFace(43), 1000u);
+  EXPECT_GT(bytesOfFace(44), 5000u);
+}
+
 TEST(SubdivisionMesh, BoundsOfFacesInACrowdContainTheSurface) { expectBoundsContainTheSurface(*fan(80).make()); }
 
 TEST(SubdivisionMesh, CrowdsBeyondMeasureAreDrawnAsTheCage) {

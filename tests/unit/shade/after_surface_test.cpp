@@ -121,6 +121,18 @@ TEST_F(Atmosphere, OneThatThrowsChangesNothing) {
   EXPECT_EQ(log.count("shader-exception"), 1);
 }
 
+void poison(const TmGrid* g) { g->Ci.y[0] = std::nanf(""); }
+
+TEST_F(Atmosphere, WhereItIsNotFiniteTheColourIsBlackAndItIsSaid) {
+  static const rsl::Shader poisoning(TM_VOLUME, "poisoning", "", 0, poison, {});
+  static const TmShader* const shaders[] = {poisoning};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  atmosphere("poisoning");
+  expectColor(seen({0, 0, 8}).color(0), vec3(0), 0);
+  EXPECT_EQ(log.count("shader-not-finite"), 1);
+}
+
 TEST_F(Atmosphere, AnUnknownOneIsReportedAndTheAirIsClear) {
   atmosphere("nosuch");
   expectColor(seen({0, 0, 8}).color(0), vec3(0.5f));

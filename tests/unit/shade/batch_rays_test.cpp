@@ -95,6 +95,24 @@ TEST_F(BatchRays, BeginAtTheirPointOrAllOverItsMicropolygon) {
   expectColor(square, {0.25f / 12, 0.09f / 12, 0}, 1e-4f);
 }
 
+TEST_F(BatchRays, OfEveryDepthGoTheirOwnWays) {
+  const auto seen = [&](int diffuse, int specular) {
+    vec3 first(0);
+    services.seen = [&](const vec3& d) { return first = d; };
+    ShadeContext context;
+    context.diffuseDepth = diffuse;
+    context.specularDepth = specular;
+    asked(
+        2, [](sl::Surface& s) { s.Ci = trace(s.P, s.N, "samplecone", 0.5, "samples", 1); }, context);
+    return first;
+  };
+  EXPECT_EQ(seen(0, 0), seen(0, 0));
+  EXPECT_NE(seen(0, 0), seen(1, 0));
+  EXPECT_NE(seen(0, 0), seen(0, 1));
+  EXPECT_NE(seen(0, 0), seen(1, 1));
+  EXPECT_EQ(seen(2, 0), seen(1, 1)) << "it is their sum that counts";
+}
+
 TEST_F(BatchRays, GatherBeyondTheLimitOfDepthMeetsNothingAndTracesNothing) {
   services.met = [](const vec3&, const vec3&) { return 3.0f; };
   services.deep = true;

@@ -424,6 +424,20 @@ TEST(ParameterValues, OfATypeMayBeGivenAsThoseThatNeedNoConversion) {
   EXPECT_EQ(tmTypeOf(ValueType::Integer), TM_FLOAT);
 }
 
+TEST_F(Binding, AnIndirectLightAsksWhatItsParametersSay) {
+  light("indirectlight", {number("samples", 77), number("maxerror", 0.25f), number("maxdist", 9),
+                          text("subset", "near"), text("errorfunction", "ward"), number("bounces", 3)});
+  const IndirectQuery* query = system().group(0).indirectQuery();
+  ASSERT_TRUE(query);
+  EXPECT_EQ(query->samples, 77);
+  EXPECT_EQ(query->maxError, 0.25f);
+  EXPECT_EQ(query->maxDistance, 9);
+  EXPECT_EQ(query->subset, "near");
+  EXPECT_EQ(query->errorFunction, errorFunctionNamed("ward"));
+  EXPECT_EQ(query->bounces, 3);
+  EXPECT_EQ(log.entries().size(), 0u);
+}
+
 TEST_F(Binding, ACountOfALightThatIsNoNumberIsItsDefault) {
   light("indirectlight", {number("samples", std::nanf(""))});
   EXPECT_EQ(system().group(0).indirectQuery()->samples, IndirectQuery().samples);

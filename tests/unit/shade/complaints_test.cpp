@@ -1,4 +1,5 @@
 // What is said of shaders that ask for what they have not declared or what there is not, and what they get instead.
+#include <array>
 #include <functional>
 
 #include "reyes/shader.h"
@@ -41,6 +42,54 @@ TEST_F(Complaints, ADerivativeOfWhatAShaderHasComputedNeedsNeighbours) {
     EXPECT_EQ(out[0], 0);
   });
   EXPECT_EQ(log.count("shader-derivative"), 1);
+}
+
+TEST_F(Complaints, ADerivativeOfWhatAPointKnowsNeedsNone) {
+  surface("derive");
+  float expected = 0;
+  ShadePoints p = withSteps(points({vec3(1, 2, 5)}));
+  p.channel(kDu)[0] = 0.5f;
+  p.channel(kDv)[0] = 0.25f;
+  p.set3(kDpduX, 0, {2, 3, 4});
+  p.set3(kDpdvX, 0, {5, 6, 7});
+  p.channel(kU)[0] = 0.1f;  // all of them differ
+  p.channel(kV)[0] = 0.2f;
+  p.channel(kS)[0] = 0.3f;
+  p.channel(kT)[0] = 0.4f;
+  p.set3(kNx, 0, {0.5f, 0.6f, 0.7f});
+  for (const bool v : {false, true})
+    for (const int step : std::array<int, 7>{kStepS, kStepT, kStepU, kStepV, kStepN, kStepN + 1, kStepN + 2})
+      p.step(step, v)[0] = expected += 1;
+  act = [&](const TmGrid* g) {
+    const auto derivative = [&](int direction, const float* value) {
+      rsl::Array out(g);
+      g->call->derivative(g->host, g, direction, value, out.data());
+      return out[0];
+    };
+    for (int direction = 0; direction < 2; ++direction) {
+      const float* const P[] = {g->P.x, g->P.y, g->P.z};
+      for (int k = 0; k < 3; ++k)
+        EXPECT_FLOAT_EQ(derivative(direction, P[k]), static_cast<float>(3 * direction + 2 + k)) << k;
+      const float size = direction ? 0.25f : 0.5f;
+      int step = 7 * direction;
+      for (const float* value : {g->s, g->t, g->u, g->v, static_cast<const float*>(g->N.x),
+                                 static_cast<const float*>(g->N.y), static_cast<const float*>(g->N.z)})
+        EXPECT_FLOAT_EQ(derivative(direction, value), static_cast<float>(++step) / size) << step;
+    }
+  };
+  shade(p);
+  ShadePoints stepless = points({vec3(1, 2, 5)});
+  for (const int c : {kU, kV, kDu, kDv}) stepless.channel(c)[0] = p.channel(c)[0];
+  act = [&](const TmGrid* g) {
+    rsl::Array out(g);
+    for (const auto& [direction, value, is] :
+         {std::tuple(0, g->u, 1.0f), {1, g->u, 0.0f}, {0, g->v, 0.0f}, {1, g->v, 1.0f}}) {
+      g->call->derivative(g->host, g, direction, value, out.data());
+      EXPECT_EQ(out[0], is) << direction;
+    }
+  };
+  shade(stepless);
+  EXPECT_EQ(log.entries().size(), 0u);
 }
 
 TEST_F(Complaints, APictureAtComputedPlacesIsNotFilteredWithoutNeighbours) {

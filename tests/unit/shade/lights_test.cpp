@@ -1,3 +1,5 @@
+#include "reyes/shade/light_services.h"
+#include "reyes/shader.h"
 #include "tests/unit/shade/stage.h"
 
 namespace tomales {
@@ -198,6 +200,50 @@ TEST_F(Lights, OfWhichAPointDrawsAFewBringTheSameWhateverThePointsBesideIt) {
   }
   EXPECT_NEAR(together.color(0).x, 1e6f, 2e3f);
   EXPECT_NEAR(together.color(1).x, 100 / (38.0f * 38), 0.01f);
+}
+
+vec3 askedDirectly;
+void askDirectly(const TmGrid* g) {
+  rsl::Vec3Array E(g);
+  g->call->indirectDiffuse(g->host, g, rsl::view(g->N), E, nullptr);
+  askedDirectly = {E[0].x, E[0].y, E[0].z};
+}
+const rsl::Shader directlyShader(TM_SURFACE, "directly", "", TM_TRACES, askDirectly, {});
+
+TEST_F(Lights, IndirectLightThatASurfaceAsksForItselfObeysReceiveGainAndContext) {
+  static const TmShader* const shaders[] = {directlyShader};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  surface("directly");
+  services.E = {1, 2, 3};
+  attributes.indirect.gain = 2;
+  attributes.irradianceMaxError = 0.125f;
+  light("indirectlight", {number("samples", 77)});
+  shadeOne();
+  expectColor(askedDirectly, {2, 4, 6});
+  EXPECT_EQ(services.queries.back().samples, 77);
+  EXPECT_EQ(services.queries.back().maxError, 0.125f);
+  ShadeContext direct;
+  direct.indirect = false;
+  shadeOne(direct);
+  expectColor(askedDirectly, vec3(0));
+  shading.reset();
+  scene.objects.clear();
+  attributes.indirect.receive = false;
+  shadeOne();
+  expectColor(askedDirectly, vec3(0));
+}
+
+TEST(LightCategories, AreAlternativesOfTermsThatAllMustHold) {
+  const auto in = [](const char* expression) { return inCategory("key,warm,left", expression); };
+  for (const char* yes : {"", "key", "left", "-fill", "fill|key", "fill,cold,left", "fill|warm|cold", "key&warm&left",
+                          "key&-fill&left", "fill&key|warm"})
+    EXPECT_TRUE(in(yes)) << yes;
+  for (const char* no :
+       {"fill", "ke", "keys", "-warm", "fill|cold", "key&fill&left", "key&warm&-left", "fill|cold|-key"})
+    EXPECT_FALSE(in(no)) << no;
+  EXPECT_FALSE(inCategory("", "key"));
+  EXPECT_TRUE(inCategory("", "-key"));
 }
 
 TEST_F(Lights, OfOneGroupShineAloneButForIndirectLight) {

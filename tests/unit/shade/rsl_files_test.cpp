@@ -28,7 +28,8 @@ class RslFiles : public Stage {
   static std::string saidIn(const Log& log) {
     std::string out;
     for (const LogEntry& e : log.entries())
-      out += e.code + ": " + (e.where.file ? *e.where.file + ": " : "") + e.message + "\n";
+      out += e.code + ": " + (e.where.file ? *e.where.file + ": " : "") +
+             (e.where.line ? std::to_string(e.where.line) + ": " : "") + e.message + "\n";
     return out;
   }
   std::string said() const { return saidIn(log); }
