@@ -234,6 +234,40 @@ TEST_F(Lights, IndirectLightThatASurfaceAsksForItselfObeysReceiveGainAndContext)
   expectColor(askedDirectly, vec3(0));
 }
 
+// Arrays of such a batch have no padding behind them, so what goes one too far meets the next array.
+TEST_F(Lights, GiveThePointsOfAFullBatchWhatTheyGiveEachAlone) {
+  services.E = {1, 2, 3};
+  services.visible = [](const vec3& P, const vec3&) { return 0.5f + 0.005f * P.x; };
+  services.seen = [](const vec3& d) { return 0.5f + 0.5f * d; };
+  services.emitter = [](float a, float b, vec3& P, vec3& N, float& area) {
+    P = {a, b, 3};
+    N = {0, 0, 1};
+    area = 1;
+  };
+  light("ambientlight");
+  light("pointlight", {point("from", {3, 2, 0}), number("intensity", 20)}).castsShadows = true;
+  light("arealight", {number("samples", 2)}, true).castsShadows = true;
+  light("environmentlight", {number("samples", 2)});
+  light("indirectlight");
+  std::vector<vec3> places;
+  for (int i = 0; i < 64; ++i) places.push_back({0.1f * static_cast<float>(i), 0, 5});
+  const ShadePoints all = points(places, glm::normalize(vec3(0.2f, 0.1f, -1)));
+  for (const char* name : {"matte", "plastic", "metal", "glass"}) {
+    shading.reset();
+    scene.objects.clear();
+    surface(name);
+    services.gathers = 0;
+    const ShadedPoints together = shade(all);
+    EXPECT_LE(services.gathers, 64) << name << ": one gather serves three colours";
+    for (const int i : {0, 1, 63}) {
+      ShadePoints alone(0, 0);
+      alone.add(all.name(i));
+      for (int c = 0; c < all.channelCount(); ++c) alone.channel(c)[0] = all.channel(c)[i];
+      EXPECT_EQ(shade(alone).color(0), together.color(i)) << name << ' ' << i;
+    }
+  }
+}
+
 TEST(LightCategories, AreAlternativesOfTermsThatAllMustHold) {
   const auto in = [](const char* expression) { return inCategory("key,warm,left", expression); };
   for (const char* yes : {"", "key", "left", "-fill", "fill|key", "fill,cold,left", "fill|warm|cold", "key&warm&left",

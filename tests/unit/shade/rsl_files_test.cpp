@@ -251,8 +251,9 @@ TEST_F(MovingSurfaces, GiveWayToADisplacementShader) {
   displacement("bump");
   const Attributes& a = moved();
   EXPECT_EQ(a.displacement->name, "bump");
-  EXPECT_TRUE(says(
-      "surface-moves: stage.rib: surface shader \"wave\" assigns P, and displacement shader \"bump\" moves points too"))
+  EXPECT_TRUE(
+      says("surface-moves: stage.rib: 7: surface shader \"wave\" assigns P, and displacement shader \"bump\" moves "
+           "points too"))
       << said();
   ASSERT_EQ(a.displacementOutputs.size(), 2u) << "surfaces may ask for numbers, but not for texts and lists";
   EXPECT_EQ(a.displacementOutputs[0].name, "height");
