@@ -170,15 +170,20 @@ TEST(BlobGround, TheRangeOverASmallBoxAboveTheGroundIsNarrow) {
 }
 
 TEST(BlobGround, TheRangeOverAPointAboveFlatGroundIsItsForceThere) {
-  GroundPicture flat{4, 4, std::vector<float>(16, 2.0f), mat4(1.0f), mat4(1.0f)};
-  flat.cameraFromObject = mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 2, 1);
-  flat.texelFromObject = mat4(2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, 2, 2, 0, 1);
-  const BlobGround ground(std::move(flat), {0.5, 0.01, 0.15, 0.3});
-  for (const double z : {0.02, 0.1, 0.2, 0.45, 0.6}) {
-    const dvec3 p(0.1, -0.2, z);
-    const FieldRange range = ground.over({p, p});
-    EXPECT_NEAR(range.lo, ground.at(p).value, 1e-9) << z;
-    EXPECT_NEAR(range.hi, ground.at(p).value, 1e-9) << z;
+  for (const bool perspective : {false, true}) {
+    GroundPicture flat{4, 4, std::vector<float>(16, 2.0f), mat4(1.0f), mat4(1.0f)};
+    flat.cameraFromObject = mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 2, 1);
+    flat.texelFromObject = perspective ? mat4(2, 0, 0, 0, 0, -2, 0, 0, -2, -2, 0, -1, 4, 4, 0, 2)
+                                       : mat4(2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, 2, 2, 0, 1);
+    const BlobGround ground(std::move(flat), {0.5, 0.01, 0.15, 0.3});
+    for (const double z : {0.02, 0.1, 0.2, 0.45, 0.6})
+      for (const double x : {-0.8, 0.1, 0.7})
+        for (const double y : {-0.7, -0.2, 0.8}) {
+          const dvec3 p(x, y, z);
+          const FieldRange range = ground.over({p, p});
+          EXPECT_NEAR(range.lo, ground.at(p).value, 1e-9) << perspective << ' ' << z;
+          EXPECT_NEAR(range.hi, ground.at(p).value, 1e-9) << perspective << ' ' << z;
+        }
   }
 }
 

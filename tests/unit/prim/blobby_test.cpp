@@ -87,6 +87,34 @@ TEST(Blobby, LeavesOfAMaximumThatNearlyTouchStayApart) {
   EXPECT_NEAR(enclosedBy(*prim, 8).volume, 2 * one, 0.01 * one);
 }
 
+// Beside a crease some paths from the mesh miss the surface. They would miss it by far if they went on.
+TEST(Blobby, WhatMissesTheSurfaceAtACreaseStaysBesideIt) {
+  constexpr uint32_t kSeed = 6, kBalls = 4;
+  std::vector<vec3> centers;
+  std::vector<float> numbers, sizes;
+  std::vector<int> code;
+  for (uint32_t k = 0; k < kBalls; ++k) {
+    const auto random = [&](uint32_t j) { return unitFloat(hashCombine(kSeed, k, j)); };
+    centers.push_back({random(1), random(2), random(3)});
+    sizes.push_back(0.3f + 0.7f * random(9));
+    numbers = joined({numbers, ball(centers.back(), vec3(sizes.back()))});
+    code.insert(code.end(), {kEllipsoid, static_cast<int>(16 * k)});
+  }
+  code.insert(code.end(), {kMaximum, 4, 0, 1, 2, 3});
+  const PrimPtr prim = blobby(kBalls, code, numbers);
+  int missed = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const Sample s =
+        sampleAt(*prim, i * 7919 % prim->patchCount(), unitFloat(hashCombine(i, 1u)), unitFloat(hashCombine(i, 2u)));
+    double most = 0;
+    for (size_t k = 0; k < kBalls; ++k) most = std::max(most, ballAt(s.p, centers[k], vec3(sizes[k])));
+    EXPECT_NEAR(most, 27.0 / 64, 0.05);
+    missed += std::abs(most - 27.0 / 64) > 1e-3;
+  }
+  EXPECT_GT(missed, 5) << "otherwise this tests nothing";
+  EXPECT_LT(missed, 40);
+}
+
 TEST(Blobby, AKeyOfMotionIsTheNewSurfaceOnTheMeshOfTheFirst) {
   const std::vector<int> code = {kEllipsoid, 0, kEllipsoid, 16, kSegment, 32, kAdd, 3, 0, 1, 2};
   const auto numbers = [](const vec3& at, const vec3& scale, const vec3& end) {
