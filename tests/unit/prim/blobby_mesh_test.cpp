@@ -70,14 +70,6 @@ TEST(BlobSurface, ThatVanishesLeavesItsMeshWithoutReach) {
   EXPECT_TRUE(contour(faint, kBox).quads.empty());
 }
 
-TEST(BlobSurface, OfALeafFarThinnerThanWideHasACoarserMeshWhichIsTold) {
-  BlobField thin({{glm::dmat3(1, 0, 0, 0, 1000, 0, 0, 0, 1), dvec3(0), dvec3(0), dvec3(0), 1}});
-  thin.addLeaf(0);
-  const BlobMesh mesh = contour(thin, kBox);
-  EXPECT_FALSE(mesh.complete);
-  EXPECT_GT(mesh.quads.size(), 1000u) << "as fine as the limits allow";
-}
-
 }  // namespace
 }  // namespace blobby_mesh
 }  // namespace tomales

@@ -70,6 +70,17 @@ TEST(Curves, RibbonsAreAsWideAsTheySayAndFaceTheEye) {
     }
 }
 
+TEST(Curves, LieAcrossTheirDirectionAlsoAtDoubledEnds) {
+  const PrimPtr prim = curves(true, bezierBasis(), {4}, false,
+                              {positions({0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0}), width(Storage::Constant, {.2f})})
+                           ->facing({0, 0, -9}, {0, 0, 1}, false);
+  for (const float v : {0.0f, 0.5f, 1.0f}) {
+    const vec3 across = sampleAt(*prim, 0, 1, v).p - sampleAt(*prim, 0, 0, v).p;
+    EXPECT_NEAR(glm::length(across), 0.2f, 1e-6f) << v;
+    EXPECT_NEAR(dot(across, vec3(1, 1, 0)), 0, 1e-4f) << v;
+  }
+}
+
 TEST(Curves, WithoutPerspectiveTheyFaceTheDirection) {
   const PrimPtr prim = curves(false, bezierBasis(), {2}, false, {positions({0, 0, 0, 3, 0, 0})});
   const Sample s = sampleAt(*prim->facing({5, 5, 5}, {0, 1, 0}, false), 0, 0.5f, 0.5f);

@@ -219,18 +219,21 @@ TEST_F(Lights, IndirectLightThatASurfaceAsksForItselfObeysReceiveGainAndContext)
   attributes.indirect.gain = 2;
   attributes.irradianceMaxError = 0.125f;
   light("indirectlight", {number("samples", 77)});
-  shadeOne();
+  const auto ask = [&](const ShadeContext& context = {}) {  // at points of a full batch, which has no padding
+    shade(points(std::vector<vec3>(64, vec3(0, 0, 5)), glm::normalize(vec3(0.5f, 0, -1))), context);
+  };
+  ask();
   expectColor(askedDirectly, {2, 4, 6});
   EXPECT_EQ(services.queries.back().samples, 77);
   EXPECT_EQ(services.queries.back().maxError, 0.125f);
   ShadeContext direct;
   direct.indirect = false;
-  shadeOne(direct);
+  ask(direct);
   expectColor(askedDirectly, vec3(0));
   shading.reset();
   scene.objects.clear();
   attributes.indirect.receive = false;
-  shadeOne();
+  ask();
   expectColor(askedDirectly, vec3(0));
 }
 
