@@ -45,5 +45,32 @@ TEST_F(LobeSamples, CountNoLightThatHighlightsLeaveOutOrThatIsOff) {
   EXPECT_EQ(samples(), 2);
 }
 
+std::vector<float> densities;
+void askDensities(const TmGrid* g) {
+  densities.clear();
+  rsl::Array density(g);
+  for (TmIlluminance sample = tmIlluminanceDefaults(); g->call->illuminance(g->host, g, &sample);) {
+    g->call->lightDensity(g->host, g, sample.light, density.data());
+    densities.push_back(density[0]);
+  }
+  g->call->lightDensity(g->host, g, 1000, density.data());
+  densities.push_back(density[0]);
+}
+const rsl::Shader densityShader(TM_SURFACE, "density", "", 0, askDensities, {});
+
+TEST_F(LobeSamples, OfALampWithoutExtentHaveNoDensityNorHasALampThatThereIsNot) {
+  static const TmShader* const shaders[] = {densityShader};
+  static const TmShaderLibrary library = rsl::libraryOf(shaders);
+  registry.addLibrary(&library, "test");
+  surface("density");
+  light("distantlight");
+  light("environmentlight", {number("samples", 1)});
+  shadeOne();
+  ASSERT_EQ(densities.size(), 3u);
+  EXPECT_EQ(densities[0], 0);
+  EXPECT_GT(densities[1], 0);
+  EXPECT_EQ(densities[2], 0);
+}
+
 }  // namespace
 }  // namespace tomales

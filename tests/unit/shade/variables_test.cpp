@@ -112,6 +112,19 @@ TEST_F(Variables, WhatNobodyWritesIsReportedAndHoldsItsFill) {
   EXPECT_EQ(log.count("channel-unwritten"), 1);
 }
 
+TEST_F(Variables, WhatNobodyWritesIsReportedAtTheEndIfProceduralsMayBringMoreSurfaces) {
+  Procedural later;
+  later.attributes = std::make_shared<const Attributes>();
+  scene.procedurals.push_back(later);
+  surface("matte");
+  scene.options.channels["fruit"] = {"fruit", ValueType::Color, {}, at(3)};
+  show("fruit");
+  system();
+  EXPECT_EQ(log.count("channel-unwritten"), 0);
+  shading.reset();
+  EXPECT_EQ(log.count("channel-unwritten"), 1);
+}
+
 TEST_F(Variables, NothingIsStoredForRays) {
   surface("matte");
   show("N");
