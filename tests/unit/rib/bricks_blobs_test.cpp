@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "gi/brick_file.h"
+#include "reyes/density.h"
 #include "tests/unit/rib/rib_test_tools.h"
 
 namespace tomales {

@@ -1,6 +1,7 @@
 // The C binding says what the RIB says.
 #include "reyes/rib/ri_calls.h"
 
+#include "reyes/prim_factories.h"
 #include "rib_test_tools.h"
 
 namespace tomales {
