@@ -228,6 +228,7 @@ inline ColorSpace colorSpaceOf(const std::string& name) {
          : name == "xyY"                  ? ColorSpace::XyY
                                           : ColorSpace::Rgb;
 }
+inline bool isColorSpace(const std::string& name) { return name == "rgb" || colorSpaceOf(name) != ColorSpace::Rgb; }
 inline Color ctransform(ColorSpace from, ColorSpace to, Color c) {
   if (from == to) return c;
   if (from == ColorSpace::Hsv) c = rgbFromHsv(c);

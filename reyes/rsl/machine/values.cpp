@@ -35,10 +35,9 @@ void write(const Run& run, int32_t to, int32_t i, ptrdiff_t c, float x) {
 
 rsl::ColorSpace colorSpace(Run& run, int32_t name) {
   const std::string& space = run.text(name);
-  const rsl::ColorSpace out = rsl::colorSpaceOf(space);
-  if (out == rsl::ColorSpace::Rgb && space != "rgb")
+  if (!rsl::isColorSpace(space))
     run.warn("names the color space \"" + space + "\", which there is not; it counts as rgb");
-  return out;
+  return rsl::colorSpaceOf(space);
 }
 
 void colorTransform(Run& run, const PreparedInstruction& s) {

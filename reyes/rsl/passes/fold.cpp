@@ -146,9 +146,11 @@ class Folding {
       return true;
     }
     if (i.op == Op::ColorTransform) {
+      const std::string &from = at(i.in[0]).texts[0], &into = at(i.in[1]).texts[0];
+      if (!::rsl::isColorSpace(from) || !::rsl::isColorSpace(into)) return false;  // the machine says so
       const std::vector<float>& c = at(i.in[2]).floats;
       const ::rsl::Vec3 in = c.size() == 1 ? ::rsl::Vec3{c[0], c[0], c[0]} : ::rsl::Vec3{c[0], c[1], c[2]};
-      const ::rsl::Vec3 out = ::rsl::ctransform(at(i.in[0]).texts[0], at(i.in[1]).texts[0], in);
+      const ::rsl::Vec3 out = ::rsl::ctransform(from, into, in);
       become(i, constant(Shape::Triple, {out.x, out.y, out.z}));
       return true;
     }
