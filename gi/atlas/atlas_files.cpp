@@ -109,25 +109,28 @@ SceneAround sceneAround(const AtlasWork& work) {
   return {sightAlongSurfaces(*work.tools.rays), shownBy(*work.tools.rays)};
 }
 
-/// Makes the irradiance points and the bricks of a map, unless they are there already. The result is empty if the
-/// estimates are kept.
-EstimateFigures writeMap(const fs::path& folder, const std::string& name, const SceneAround& around,
-                         const AtlasWork& work) {
+struct WrittenMap {
+  EstimateFigures figures;   ///< Empty if the estimates are kept.
+  bool keepsBricks = false;  ///< The bricks were there already.
+};
+
+/// Makes the irradiance points and the bricks of a map, unless they are there already.
+WrittenMap writeMap(const fs::path& folder, const std::string& name, const SceneAround& around, const AtlasWork& work) {
   const fs::path photons = atlasFile(folder / "photons", name, ".ptc"),
                  points = atlasFile(folder / "irradiance", name, ".ptc");
   const bool caustic = MapNames::isCaustic(name);
   const PhotonIrradianceSettings& estimate = caustic ? kCausticIrradiance : work.settings.irradiance;
   const SightAlongSurface sight = caustic || name == work.names.volume ? nullptr : around.sight;
-  EstimateFigures figures;
+  WrittenMap out;
   if (pointsMadeFrom(points).inputs !=
       irradianceInputs(PointFile(photons.string()), estimate, static_cast<bool>(sight))) {
     const StageTimer timer(work.stats, "irradiance");
-    writeIrradiance(photons, points, estimate, kPointsInMemory, &figures, sight, caustic ? ShownDisk() : around.shown);
+    writeIrradiance(photons, points, estimate, kPointsInMemory, &out.figures, sight,
+                    caustic ? ShownDisk() : around.shown);
   }
-  if (!renewIrradianceBricks(points, atlasFile(folder, name, ".bkm"), work.settings.bricks, work.stats))
-    ++work.stats.photons.groupsKept;
+  out.keepsBricks = !renewIrradianceBricks(points, atlasFile(folder, name, ".bkm"), work.settings.bricks, work.stats);
   returnFreeMemory();
-  return figures;
+  return out;
 }
 
 }  // namespace
@@ -137,16 +140,18 @@ void writeMaps(const fs::path& folder, WorkPart part, const AtlasWork& work) {
   const SceneAround around = sceneAround(work);
   const std::set<std::string> maps = work.names.all();
   std::vector<MapFigures> made;
-  int finished = 0;
+  int finished = 0, kept = 0;  // A damaged map ends this, and all are counted anew.
   for (const std::string& name : maps) {
     const bool isOfThisPart = finished++ % part.count == part.index;
-    const EstimateFigures figures = isOfThisPart ? writeMap(folder, name, around, work) : EstimateFigures{};
+    const WrittenMap map = isOfThisPart ? writeMap(folder, name, around, work) : WrittenMap{};
+    kept += map.keepsBricks;
     if (name != work.names.volume) {
       const PointFile photons(atlasFile(folder / "photons", name, ".ptc").string());
-      made.push_back({name, photons.count(), figures});
+      made.push_back({name, photons.count(), map.figures});
     }
     if (work.progress) work.progress(static_cast<float>(finished) / static_cast<float>(maps.size()));
   }
+  work.stats.photons.groupsKept += kept;
   warnOfEstimates(work.scene(), work.names, made, work.log);
 }
 

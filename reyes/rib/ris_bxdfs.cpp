@@ -60,8 +60,8 @@ Source follow(const Request& r, const char* name, const Nodes& patterns) {
   const std::string reference = wordOf(r.params, name);
   const auto it = patterns.find(reference.substr(0, reference.find(':')));
   if (it == patterns.end()) {
-    Note none = note(
-        r, fmt::format("refers to a pattern \"{}\", which there is not: \"{}\" keeps its default", reference, name));
+    Note none =
+        note(r, fmt::format("refers to a pattern \"{}\", which is unknown: \"{}\" keeps its default", reference, name));
     none.key += " " + reference;
     none.code = "rib-reference";
     return {{}, "", false, {none}};

@@ -7,7 +7,7 @@ namespace tomales::compiler {
 int32_t Lowering::call(const Expr& e) {
   if (e.function) return inlined(e, *e.function);
   if (e.missing) {
-    emit(Op::Report, {}, {text(fmt::format("calls {}(), which there is not; its value is magenta, or 1", e.text))});
+    emit(Op::Report, {}, {text(fmt::format("calls {}(), which is unknown; its value is magenta, or 1", e.text))});
     if (e.type.is(Base::String)) return text("");
     if (e.type.is(Base::Matrix)) return compute(Op::MatrixOf, {number(1)});
     return e.type.isTriple() ? constant(Shape::Triple, {1, 0, 1}) : number(1);

@@ -38,9 +38,9 @@ int32_t transform(void* host, const TmGrid* g, int32_t kind, const char* from, c
   if (!a || !b || (projected && kind != TM_AS_POINT)) {
     forActive(g, [&](int i) { set(out, i, get(in, i)); });
     if (!a || !b)
-      batch.report(Severity::Warning, "shader-space",
-                   fmt::format("transforms to or from space \"{}\", which there is not; values stay as they are",
-                               a ? to : from));
+      batch.report(
+          Severity::Warning, "shader-space",
+          fmt::format("transforms to or from space \"{}\", which is unknown; values stay as they are", a ? to : from));
     return 0;
   }
   const TmType type = kind == TM_AS_POINT ? TM_POINT : kind == TM_AS_NORMAL ? TM_NORMAL : TM_VECTOR;

@@ -52,7 +52,7 @@ mat3 environmentDirections(const Batch& batch, const char* name) {
   if (space && space->kind == Space::Linear)
     return mat3(batch.scene.cameraFromWorld) * glm::inverse(mat3(space->currentFromSpace));
   batch.report(Severity::Warning, "shader-space",
-               fmt::format("looks up an environment in space \"{}\", which there is not; the world is used", name));
+               fmt::format("looks up an environment in space \"{}\", which is unknown; the world is used", name));
   return mat3(1.0f);
 }
 

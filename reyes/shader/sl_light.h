@@ -133,7 +133,7 @@ void gather(const char* category, const Point& p, const Vector& direction, float
   else if (kind.substr(0, kEnvironment.size()) == kEnvironment)
     options.environment = kind.substr(kEnvironment.size()).data();
   else if (!kind.empty() && kind != "illuminance")
-    throw std::invalid_argument(std::string("gathers \"") + category + "\", which there is not");
+    throw std::invalid_argument(std::string("gathers \"") + category + "\", which is unknown");
   std::vector<TmChannel> outputs;
   for (const Gathered& w : wanted) outputs.push_back(w.output);
   std::vector<uint8_t> met(static_cast<size_t>(grid()->padded));

@@ -58,7 +58,7 @@ Options listed(Options options, const char* name, const Setting& value, const Mo
     grid()->call->report(grid()->host, grid(), TM_WARNING,
                          (std::string("\"") + name + "\" has no effect: " + entry.idle).c_str());
   if (!entry.known)
-    throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\", which there is not");
+    throw std::invalid_argument(std::string("has a parameter list with \"") + name + "\", which is unknown");
   return listed(std::move(options), more...);
 }
 

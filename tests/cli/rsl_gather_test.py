@@ -65,7 +65,7 @@ expect("volume:Oi has crossed it too", '"volume:Oi", c', 'Exterior "mist"', [1 -
 expect("the volume of the other side is not crossed", '"volume:Ci", c', 'Interior "mist"', BARE)
 t.write("asks.sl", ASKS % '"volume:Ci", c, "volume:density", c')
 t.write("scene.rib", SCENE % "")
-t.expect_run("another value of a volume is warned of", ["scene.rib", "-o", "scene.exr"], 0, '"volume:density", which there is not')
+t.expect_run("another value of a volume is warned of", ["scene.rib", "-o", "scene.exr"], 0, '"volume:density", which is unknown')
 
 # The rays of BMRT, and those that the headers of "Advanced RenderMan" ask a server for in world space. The left half meets the sheet four units away.
 t.write("world.h", """#define worldp(p) transform("world", p)

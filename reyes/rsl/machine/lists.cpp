@@ -70,7 +70,7 @@ void tell(Call& call, const std::string& name, const rsl::Setting& value, const 
   Run& run = call.run;
   const std::string list = "has a parameter list with \"" + name + "\"";
   if (!taken.known)
-    run.warn(list + ", which there is not; it is left out");
+    run.warn(list + ", which is unknown; it is left out");
   else if (taken.idle)
     run.warn("\"" + name + "\" has no effect: " + taken.idle);
   else if (!value.fits)

@@ -85,7 +85,7 @@ void gather(Run& run, const PreparedInstruction& s) {
   });
   options.coneAngle = call.one(3, "angles of a cone");
   options.samples = call.whole(4, "numbers of samples");
-  if (!setCategory(category, options)) return run.missing("gathers \"" + category + "\", which there is not");
+  if (!setCategory(category, options)) return run.missing("gathers \"" + category + "\", which is unknown");
   const TmConstVec3 P = call.copied(1), direction = call.copied(2);
   const auto n = static_cast<size_t>(run.padded);
   uint8_t *const asked = run.memory.bytes(n), *const met = run.memory.bytes(n), *const hit = run.memory.bytes(n),

@@ -36,7 +36,7 @@ void write(const Run& run, int32_t to, int32_t i, ptrdiff_t c, float x) {
 rsl::ColorSpace colorSpace(Run& run, int32_t name) {
   const std::string& space = run.text(name);
   if (!rsl::isColorSpace(space))
-    run.warn("names the color space \"" + space + "\", which there is not; it counts as rgb");
+    run.warn("names the color space \"" + space + "\", which is unknown; it counts as rgb");
   return rsl::colorSpaceOf(space);
 }
 
@@ -84,7 +84,7 @@ void spline(Run& run, const PreparedInstruction& s) {
   const bool solved = name.starts_with(kSolve);
   if (solved) name.erase(0, kSolve.size());
   const std::optional<rsl::Basis> known = rsl::basisNamed(name);
-  if (!known) run.warn("asks for a spline of basis \"" + name + "\", which there is not; it is a Catmull-Rom spline");
+  if (!known) run.warn("asks for a spline of basis \"" + name + "\", which is unknown; it is a Catmull-Rom spline");
   const rsl::Basis basis = known.value_or(rsl::Basis::CatmullRom);
   const int32_t to = s.of->out[0], width = floatsOf(run.reg(to));
   const Reader x(run, s.of->in[1]);

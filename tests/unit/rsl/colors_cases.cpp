@@ -59,14 +59,14 @@ Cases colorCases() {
       {"Y of white is 1", "x = comp(ctransform(\"xyz\", color (1, 1, 1)), 1);", 1, {.tolerance = 1e-4f}},
       {"a space is a text that is computed", "string a = concat(\"h\", \"sv\"); c = ctransform(a, color (0, 1, 0));",
        Vec3{1.0f / 3, 1, 1}},
-      {"a space that there is not counts as rgb, with a message",
+      {"an unknown space counts as rgb, with a message",
        "c = ctransform(\"lab\", color (1, 2, 3));",
        Vec3{1, 2, 3},
-       {.message = "color space \"lab\", which there is not"}},
-      {"a cast to a space that there is not is told, too",
+       {.message = "color space \"lab\", which is unknown"}},
+      {"a cast from an unknown space is told, too",
        "c = color \"HSV\" (1, 2, 3);",
        Vec3{1, 2, 3},
-       {.message = "color space \"HSV\", which there is not"}},
+       {.message = "color space \"HSV\", which is unknown"}},
       {"rgb to rgb", "c = ctransform(\"rgb\", color (1, 2, s));",
        [](float i) {
          return Vec3{1, 2, i};

@@ -90,7 +90,7 @@ TEST_F(IlluminanceTest, ListsSendAndAskAndTheBodyAsksTheLight) {
   EXPECT_EQ(fake.output(3)[3], 0) << "no light outside of the loop";
   ASSERT_EQ(fake.sent.size(), 1u);
   EXPECT_EQ(fake.sent[0], (std::pair<std::string, float>("power", 3)));
-  EXPECT_TRUE(reported("\"nonsense\", which there is not"));
+  EXPECT_TRUE(reported("\"nonsense\", which is unknown"));
 }
 
 TEST_F(Services, ConesOfLightAreSampledEvenly) {

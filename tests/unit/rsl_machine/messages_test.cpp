@@ -65,7 +65,7 @@ TEST_F(Services, PrintWritesALineForEachActivePoint) {
   b.branch(where(0.1f), [&] {
     b.emit(Op::Print, {}, {b.text("%f of %d: %c %%"), s, b.number(20), b.triple(1, 2, 3)});
   });
-  b.emit(Op::Report, {}, {b.text("calls f(), which there is not")});
+  b.emit(Op::Report, {}, {b.text("calls f(), which is unknown")});
   run();
   EXPECT_EQ(fake.printed, (std::vector<std::string>{"0.000000 of 20: 1.000000 2.000000 3.000000 %",
                                                     "1.000000 of 20: 1.000000 2.000000 3.000000 %"}));

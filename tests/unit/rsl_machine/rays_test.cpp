@@ -73,7 +73,7 @@ TEST_F(Services, GatherRunsOneBodyForHitsAndTheOtherForMisses) {
   EXPECT_EQ(fake.rayOptions.maxDistance, 0);
   EXPECT_EQ(fake.rayOptions.uniform, 1);
   EXPECT_EQ(fake.rayOptions.bias, 0.25f);
-  EXPECT_TRUE(reported("\"nonsense\", which there is not"));
+  EXPECT_TRUE(reported("\"nonsense\", which is unknown"));
 }
 
 TEST_F(Services, WhoHasLeftIsGatheredNoMoreAndTheMaskOfTheQuestionStays) {

@@ -104,7 +104,7 @@ TEST_F(Services, TexturesHaveAChannelARegionAndAList) {
   EXPECT_EQ(fake.textureOptions.sblur, 0.25f);
   EXPECT_EQ(fake.filter, "gaussian");
   EXPECT_EQ(fake.textureOptions.region[0], nullptr);
-  EXPECT_TRUE(reported("\"nothing\", which there is not"));
+  EXPECT_TRUE(reported("\"nothing\", which is unknown"));
   EXPECT_TRUE(reported("\"width\" that has a value of another type"));
 }
 
