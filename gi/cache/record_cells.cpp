@@ -8,6 +8,8 @@ namespace {
 constexpr uint32_t kInner = ~uint32_t{0};
 constexpr size_t kFew = 6;    ///< A list of so few records is not worth dividing.
 constexpr int kDeepest = 20;  ///< Bounds the memory where records lie at one place.
+/// Bounds the memory where few records of little reach lie among many of great reach.
+constexpr size_t kMostPerRecord = 256;
 /// Cells are not divided below this share of the least reach of their records: most of these reach all of the cell.
 constexpr float kCellOfReach = 0.5f;
 
@@ -37,7 +39,8 @@ void RecordCells::divide(uint32_t node, const OctreeBox& box, std::span<const ui
     list.push_back(record);
     least = std::min(least, radius);
   }
-  if (list.size() <= kFew || depth == kDeepest || box.half < kCellOfReach * least) {
+  const bool isFull = lists_.size() > kMostPerRecord * records_.size();
+  if (list.size() <= kFew || depth == kDeepest || box.half < kCellOfReach * least || isFull) {
     nodes_[node] = {static_cast<uint32_t>(lists_.size()), static_cast<uint32_t>(list.size()), mostPixels};
     lists_.insert(lists_.end(), list.begin(), list.end());
     return;

@@ -27,6 +27,8 @@ class RecordCells {
   /// for this size of pixels.
   std::optional<std::span<const uint32_t>> find(const vec3& position, float pixelSize) const;
   const RecordReach& operator[](uint32_t record) const { return records_[record]; }
+  /// Returns the length of all lists together.
+  size_t listed() const { return lists_.size(); }
 
  private:
   struct Node {

@@ -55,6 +55,21 @@ TEST(RecordCells, APlaceOutsideOrOfLargerPixelsThanWasSaidHasNoList) {
   EXPECT_FALSE(cells.find({1.1f, 0.5f, 0}, 0.02f));
 }
 
+TEST(RecordCells, SmallRecordsAmongManyLargeOnesDoNotTakeMemoryWithoutEnd) {
+  std::vector<RecordReach> records = recordsOnAWall();
+  for (uint32_t i = 0; i < kRecords; ++i) records[i].size = i % 2 ? 1.0f : 1e-3f;
+  const RecordCells cells(
+      kAroundWall, records, [](const RecordReach& r, float) { return r.size; }, [](const Bound3&) { return 1.0f; });
+  EXPECT_LT(cells.listed(), 500 * kRecords);
+  const vec3 x = records[0].position;
+  const auto list = cells.find(x, 1);
+  EXPECT_EQ(list->front(), 0u);
+  for (uint32_t r = 1; r < kRecords; r += 2) {
+    const bool serves = glm::length(records[r].position - x) <= 1;
+    EXPECT_TRUE(!serves || std::binary_search(list->begin(), list->end(), r));
+  }
+}
+
 TEST(RecordCells, ManyRecordsAtOnePlaceAndNoRecordsAtAllHaveLists) {
   const auto noPixels = [](const Bound3&) { return 1.0f; };
   const RecordReach same{vec3(0.3f), {0, 0, 1}, 1e-9f, kInfinity, 0, 0};
