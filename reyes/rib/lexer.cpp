@@ -185,7 +185,7 @@ void Lexer::readString() {
     if (c == ByteStream::kEnd) return junk("a string without closing quote");
     tooLong = tooLong || token_.text.size() >= kLongestString;
     if (tooLong) token_.text.clear();
-    if (c == '\n') ++line_;
+    if (c == '\n' || (c == '\r' && stream_.peek() != '\n')) ++line_;
     if (c == '\\')
       readEscape();
     else

@@ -118,7 +118,8 @@ const TmShader* ShaderRegistry::Impl::keep(const RslFound& found) {
 
 /// Reports a name with folders of which only the last part was found.
 void ShaderRegistry::Impl::tellOfOtherFolder(const std::string& name, const RslFound& found) {
-  const std::string written = withoutShaderEnding(name);
+  std::string written = withoutShaderEnding(name);
+  std::replace(written.begin(), written.end(), '\\', '/');
   if (lastPartOf(written).empty() || found.file.ends_with(written + ".sl")) return;
   log.report(Severity::Note, "shader-elsewhere", {},
              fmt::format("shader \"{}\" is not there; {} is taken, which has its name", name, found.file), name);
@@ -192,9 +193,11 @@ const TmShader* ShaderRegistry::Impl::search(const std::string& name, TmKind kin
   return standardNameWithFolders(name, kind);
 }
 
-/// Returns the built-in shader of RISpec's that a name means which has folders of another machine before it.
+/// Returns the built-in shader of RISpec's that a name means which has an ending, or folders of another machine before
+/// it.
 const TmShader* ShaderRegistry::Impl::standardNameWithFolders(const std::string& name, TmKind kind) {
-  const TmShader* const meant = known(lastPartOf(withoutShaderEnding(name)), kind);
+  const std::string written = withoutShaderEnding(name), last = lastPartOf(written);
+  const TmShader* const meant = known(last.empty() ? written : last, kind);
   if (!meant || !isOfSpecification(meant->name) || builtIn.count(meant) == 0) return nullptr;
   log.report(
       Severity::Note, "shader-elsewhere", {},

@@ -191,10 +191,12 @@ std::vector<std::string> candidates(const std::string& name, const std::vector<s
     }
   };
   take(name + ".sl");
-  // Exporters name files relative to the folder of the project, or by the folders of their machine.
-  if (out.empty())
-    for (const std::string& end : pathSuffixes(name + ".sl", folders))
-      if (out.empty()) take(end);
+  // Exporters name files relative to the folder of the project, or by the folders of their machine. What lies in the
+  // folders of the search path comes before what lies in folders above them.
+  const std::vector<std::string> ends = pathSuffixes(name + ".sl", folders);
+  for (const bool isAbove : {false, true})
+    for (const std::string& end : ends)
+      if (out.empty() && fs::path(end).is_absolute() == isAbove) take(end);
   if (!out.empty()) return out;
   if (shader != name) return candidates(shader, folders);
   for (const std::string& folder : folders) {

@@ -18,14 +18,15 @@ namespace rsl {
 /// A value of format(): a text, or the numbers of a float, a triple or a matrix.
 struct FormatValue {
   std::string text;
-  std::vector<float> numbers;
+  std::vector<double> numbers;
+  bool whole = false;  ///< The number is of a whole type, and is written without a fraction.
 };
 
 namespace text_detail {
 
-inline FormatValue valueOf(float x) { return {{}, {x}}; }
-inline FormatValue valueOf(int x) { return valueOf(static_cast<float>(x)); }
-inline FormatValue valueOf(double x) { return valueOf(static_cast<float>(x)); }
+inline FormatValue valueOf(double x) { return {{}, {x}}; }
+inline FormatValue valueOf(float x) { return valueOf(static_cast<double>(x)); }
+inline FormatValue valueOf(int x) { return {{}, {static_cast<double>(x)}, true}; }
 inline FormatValue valueOf(const std::string& s) { return {s, {}}; }
 inline FormatValue valueOf(Vec3 v) { return {{}, {v.x, v.y, v.z}}; }
 inline FormatValue valueOf(const Matrix& m) {
@@ -39,12 +40,13 @@ inline FormatValue valueOf(const Matrix& m) {
 struct Layout {
   bool left = false, zeros = false, plus = false;
   int width = 0, precision = -1;
-  char letter = 0;  ///< 0: the pattern ends before it
+  char letter = 0;  ///< 0: there is none of those that stand for values
   size_t end = 0;   ///< the place behind the letter
 };
 
 inline Layout layoutAt(const std::string& pattern, size_t percent) {
   constexpr int kMost = 200;
+  constexpr std::string_view kLetters = "fdicpvnmsheEgG";
   Layout out;
   size_t i = percent + 1;
   const auto number = [&] {
@@ -63,8 +65,9 @@ inline Layout layoutAt(const std::string& pattern, size_t percent) {
     ++i;
     out.precision = number();
   }
-  if (i < pattern.size()) out.letter = pattern[i++];
-  out.end = i;
+  while (i < pattern.size() && (pattern[i] == 'l' || pattern[i] == 'L')) ++i;  // "%ld", as in C
+  if (i < pattern.size() && kLetters.find(pattern[i]) != std::string_view::npos) out.letter = pattern[i];
+  out.end = i + 1;
   return out;
 }
 
@@ -77,14 +80,14 @@ inline std::string padded(std::string text, const Layout& layout, bool zeros) {
   return text;
 }
 
-inline std::string laidOut(float x, const Layout& layout) {
-  const bool whole = layout.letter == 'd' || layout.letter == 'i';
+inline std::string laidOut(double x, bool isWhole, const Layout& layout) {
+  const bool whole = isWhole || layout.letter == 'd' || layout.letter == 'i';
   const int digits = whole ? 0 : layout.precision < 0 ? 6 : layout.precision;
-  const double value = whole ? std::trunc(static_cast<double>(x)) + 0.0 : static_cast<double>(x);
+  const double value = whole ? std::trunc(x) + 0.0 : x;
   char buffer[512];
-  if (layout.letter == 'g')
+  if (layout.letter == 'g' || layout.letter == 'G')
     std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  else if (layout.letter == 'e')
+  else if (layout.letter == 'e' || layout.letter == 'E')
     std::snprintf(buffer, sizeof buffer, "%.*e", digits, value);
   else
     std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
@@ -97,7 +100,7 @@ inline std::string laidOut(const FormatValue& value, const Layout& layout) {
   if (value.numbers.empty())
     return padded(value.text.substr(0, static_cast<size_t>(layout.precision)), layout, false);  // -1: all of it
   std::string out;
-  for (const float x : value.numbers) out += (out.empty() ? "" : " ") + laidOut(x, layout);
+  for (const double x : value.numbers) out += (out.empty() ? "" : " ") + laidOut(x, value.whole, layout);
   return out;
 }
 
@@ -111,7 +114,8 @@ std::string concat(const Parts&... parts) {
 /// %f stands for a float, %d for a number without its fraction, %c for a colour, %p for a point, vector or normal, %m
 /// for a matrix, %s for a string; %e and %g are those of C. A value is written by its own type, even if the letter
 /// differs. As in C, width and precision may stand before the letter ("%04d", "%.2f", "%-8s"); they hold for each
-/// number of a value. %% is a percent sign. A letter for which no value is left stays as it is.
+/// number of a value. %% is a percent sign. A letter that stands for no value, or for
+/// which none is left, stays as it is.
 inline std::string formatValues(const std::string& pattern, const std::vector<FormatValue>& values) {
   std::string out;
   size_t next = 0;

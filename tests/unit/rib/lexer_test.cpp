@@ -20,14 +20,15 @@ std::vector<Token> tokens(const std::string& text) {
 TEST(Lexer, EndsCommentsAndCountsLinesWhereUnixDosAndTheOldMacintoshEndThem) {
   for (const char* const end : {"\n", "\r\n", "\r"}) {
     std::string text;
-    for (const char* const line : {"##RenderMan RIB", "Color # red", "[1 2", "", "3 4]", "Sphere \"a\\", "b\""})
+    for (const char* const line :
+         {"##RenderMan RIB", "Color # red", "[1 2", "\"in", "two\"", "3 4]", "Sphere \"a\\", "b\""})
       text += std::string(line) + end;
     const auto list = tokens(text);
     ASSERT_FALSE(list.empty()) << text;
     EXPECT_EQ(list.front().text, "Color") << text;
     EXPECT_EQ(list.front().line, 2) << text;
     EXPECT_EQ(list.back().text, "ab") << text;
-    EXPECT_EQ(list.back().line, 6) << text;
+    EXPECT_EQ(list.back().line, 7) << text;
   }
 }
 

@@ -42,6 +42,8 @@ Cases textCases() {
       {"format with the letters of C", "if (format(\"%g %.1e\", .25, 1500) == \"0.25 1.5e+03\") x = 1;", 1},
       {"format of a small number", "if (format(\"%.9f\", 1e-9) == \"0.000000001\") x = 1;", 1},
       {"format with a width that a stranger chose", "if (format(\"%999999999d\", 1) != \"\") x = 1;", 1},
+      {"format of words behind a percent sign", "if (format(\"100% of %d\", 2) == \"100% of 2\") x = 1;", 1},
+      {"format with a length", "if (format(\"%ld %lf\", 2, 0.5) == \"2 0.500000\") x = 1;", 1},
       {"format without a value for a letter", "if (format(\"%d %04d\", 1) == \"1 %04d\") x = 1;", 1},
       {"format of a pattern that ends early", "if (format(\"%0\", 1) == \"%0\") x = 1;", 1},
       {"match of a part", "x = match(\"wo\", \"wood\");", 1},

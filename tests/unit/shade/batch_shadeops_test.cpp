@@ -480,6 +480,7 @@ TEST(Text, IsJoinedWrittenAndMatched) {
   EXPECT_EQ(rsl::concat("a_", name, "_", std::string("b")), "a_wood_b");
   EXPECT_EQ(rsl::format("%s at %f%% of %p, %d", name, 0.5f, rsl::Vec3{1, 2, 3}, 7),
             "wood at 0.500000% of 1.000000 2.000000 3.000000, 7");
+  EXPECT_EQ(rsl::format("%s %f %d %04d", 3, 4, 16777217, 5), "3 4 16777217 0005");  // whole numbers stay whole
   EXPECT_EQ(rsl::format("%c, %f left", rsl::Color{1, 0, 0}), "1.000000 0.000000 0.000000, %f left");
   EXPECT_EQ(rsl::format("%m", rsl::Matrix()).size(), 16 * 8 + 15u);
   EXPECT_TRUE(rsl::match("^w[aeiou]+d$", name));

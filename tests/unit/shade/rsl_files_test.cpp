@@ -68,6 +68,21 @@ TEST_F(RslFiles, AreTakenFromWhereTheirNamesSayThatTheyLie) {
   EXPECT_EQ(said(), "");
 }
 
+TEST_F(RslFiles, InTheSearchPathComeBeforeThoseOfFoldersAboveIt) {
+  fs::create_directories(folder + "/lib");
+  fs::create_directories(folder + "/sub");
+  write("lib/paint.sl", "surface paint(float b = 1;) {}");
+  const auto isFound = [&](const char* parameter) {
+    Log said;
+    ShaderRegistry later(said);
+    const TmShader* const shader = later.find("lib/paint", TM_SURFACE, folder + "/sub");
+    return shader && shader->params[0].name == std::string(parameter);
+  };
+  EXPECT_TRUE(isFound("b"));
+  write("sub/paint.sl", kPaint);
+  EXPECT_TRUE(isFound("a"));
+}
+
 TEST_F(RslFiles, OfAnotherMachineAreSoughtByTheEndsOfTheirNames) {
   fs::create_directories(folder + "/looks/wet");
   write("looks/wet/paint.sl", kPaint);
@@ -81,7 +96,7 @@ TEST_F(RslFiles, OfAnotherMachineAreSoughtByTheEndsOfTheirNames) {
 }
 
 TEST_F(RslFiles, ThatAreNotThereAndHaveAStandardNameBehindTheirFoldersAreBuiltIn) {
-  for (const char* name : {"shaders/matte", "/opt/lib/shaders/matte.slo", "C:\\lib\\matte.slo"}) {
+  for (const char* name : {"matte.slo", "shaders/matte", "/opt/lib/shaders/matte.slo", "C:\\lib\\matte.slo"}) {
     EXPECT_EQ(nameOf(find(name)), "matte") << name;
     EXPECT_TRUE(says("shader \"" + std::string(name) + "\" is not there; the built-in \"matte\" is taken")) << said();
   }
