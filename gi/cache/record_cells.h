@@ -14,8 +14,7 @@ namespace tomales {
 
 class RecordCells {
  public:
-  /// Returns the greatest distance at which a record serves any place of a box, if the places have at most this size of
-  /// pixels.
+  /// Returns the greatest distance at which a record serves places whose pixels have at most this size.
   using ReachOf = std::function<float(const RecordReach&, float pixelSize)>;
   /// Returns the greatest size of pixels that lookups in a box have.
   using MostPixels = std::function<float(const Bound3&)>;

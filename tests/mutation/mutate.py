@@ -39,7 +39,7 @@ UNITS = {
                  slow="ZipMember.OfAZip*:RunProgram.That*:Interning.Many*:ByteStream.StopsAt*:Writer.*:Number.*:Objects.That*:SearchPath.That*"),
     "prim": Owner("prim", "reyes/prim/*.cpp", "test_prim"),
     "shade": Owner("shade", "reyes/shade/*.cpp", "test_shade", slow="Sl.TheExamples*:Plugins.*"),
-    "cache": Owner("gi", "gi/cache/**/*.*", "test_gi", only="*Cache*:SharesOfARecord.*:Records.*:BrightSpots.*:SpotAim.*", slow="Gather.*"),
+    "cache": Owner("gi", "gi/cache/**/*.*", "test_gi", only="*Cache*:RecordCells.*:SharesOfARecord.*:Records.*:BrightSpots.*:SpotAim.*", slow="Gather.*"),
 }
 
 

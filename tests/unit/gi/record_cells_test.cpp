@@ -4,14 +4,12 @@
 
 #include <algorithm>
 
-#include "tests/unit/gi/random_places.h"
+#include "tests/unit/gi/cache_records.h"
 
 namespace tomales {
 namespace {
 
 constexpr uint32_t kRecords = 2000;
-const Bound3 kAroundWall{vec3(-1), vec3(1)};
-
 /// Records on a wall, which reach as far as three pixels at most.
 std::vector<RecordReach> recordsOnAWall() {
   std::vector<RecordReach> out;
@@ -26,7 +24,7 @@ float reachOf(const RecordReach& r, float pixelSize) { return std::min(r.size, 3
 float pixelsAt(const vec3& p) { return 0.02f + 0.01f * p.x; }
 
 RecordCells cellsOfAWall() {
-  return RecordCells(kAroundWall, recordsOnAWall(), reachOf, [](const Bound3& box) { return pixelsAt(box.hi); });
+  return RecordCells(kBox, recordsOnAWall(), reachOf, [](const Bound3& box) { return pixelsAt(box.hi); });
 }
 
 TEST(RecordCells, TheListOfAPlaceHasEveryRecordThatServesItInOrderAndFewOthers) {
@@ -59,7 +57,7 @@ TEST(RecordCells, SmallRecordsAmongManyLargeOnesDoNotTakeMemoryWithoutEnd) {
   std::vector<RecordReach> records = recordsOnAWall();
   for (uint32_t i = 0; i < kRecords; ++i) records[i].size = i % 2 ? 1.0f : 1e-3f;
   const RecordCells cells(
-      kAroundWall, records, [](const RecordReach& r, float) { return r.size; }, [](const Bound3&) { return 1.0f; });
+      kBox, records, [](const RecordReach& r, float) { return r.size; }, [](const Bound3&) { return 1.0f; });
   EXPECT_LT(cells.listed(), 500 * kRecords);
   const vec3 x = records[0].position;
   const auto list = cells.find(x, 1);
@@ -73,8 +71,7 @@ TEST(RecordCells, SmallRecordsAmongManyLargeOnesDoNotTakeMemoryWithoutEnd) {
 TEST(RecordCells, ManyRecordsAtOnePlaceAndNoRecordsAtAllHaveLists) {
   const auto noPixels = [](const Bound3&) { return 1.0f; };
   const RecordReach same{vec3(0.3f), {0, 0, 1}, 1e-9f, kInfinity, 0, 0};
-  const RecordCells crowded(kAroundWall, std::vector(50, same), reachOf, noPixels),
-      empty(kAroundWall, {}, reachOf, noPixels);
+  const RecordCells crowded(kBox, std::vector(50, same), reachOf, noPixels), empty(kBox, {}, reachOf, noPixels);
   EXPECT_EQ(crowded.find(vec3(0.3f), 1)->size(), 50u);
   EXPECT_EQ(crowded.find(vec3(-0.3f), 1)->size(), 0u);
   EXPECT_EQ(empty.find(vec3(0.3f), 1)->size(), 0u);
