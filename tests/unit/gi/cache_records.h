@@ -22,7 +22,7 @@ inline IrradianceRecord recordAt(const vec3& position, const vec3& E, float clos
 inline vec3 tilted(float degrees) { return {std::sin(degrees * kPi / 180), 0, std::cos(degrees * kPi / 180)}; }
 
 inline float weightOfOne(const CacheSettings& settings, const IrradianceRecord& record, const vec3& x, const vec3& n,
-                  float pixelSize) {
+                         float pixelSize) {
   IrradianceCache cache(kBox, settings);
   cache.insert(record);
   return cache.lookup(x, n, pixelSize).weight;
